@@ -1,0 +1,21 @@
+//! Exact and approximate arithmetic that knows nothing of geometry.
+//!
+//! What can be added and multiplied is a [`Ring`]; what can also be divided exactly is a [`Domain`].
+//! Floats are rings and not domains, so an elimination over floats does not compile. On these two
+//! stand polynomials in one variable ([`UPoly`]), in many ([`Poly`]), and on the unit circle ([`Trig`]).
+
+mod gaussian;
+mod monomial;
+mod poly;
+mod rational;
+mod ring;
+mod trig;
+mod upoly;
+
+pub use gaussian::Gaussian;
+pub use monomial::Monomial;
+pub use poly::Poly;
+pub use rational::{Integer, Rational, dyadic, integer_to_f64_scaled, nearest_f64, ratio_to_f64};
+pub use ring::{Domain, Ring};
+pub use trig::Trig;
+pub use upoly::UPoly;

@@ -1,0 +1,7 @@
+//! Planar 3-DOF parallel manipulators: a platform on legs of three joints each.
+//!
+//! A [`Manipulator`] is described once; [`Manipulator::forward`] locks its actuators and asks the triad that is left.
+
+mod describe;
+
+pub use describe::{DescriptionError, JointKind, Leg, Manipulator, Placement};
