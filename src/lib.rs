@@ -6,8 +6,17 @@ pub use nalgebra;
 pub use num_complex;
 
 pub mod algebra;
+pub mod certify;
 pub mod linkage;
 pub mod manipulator;
+pub mod solve;
 
-pub use linkage::{Dyad, Offset, Pose, Triad, TriadError};
-pub use manipulator::{DescriptionError, JointKind, Leg, Manipulator, Placement};
+pub use certify::Verdict;
+pub use linkage::{
+    Assemblies, AssemblyMode, ComplexMode, Dyad, Offset, Pose, Rejection, RejectionReason, SelfMotion, Special, Status,
+    ThetaPolynomial, Triad, TriadError,
+};
+pub use manipulator::{
+    AssemblyModes, DescriptionError, ForwardError, JointKind, Leg, Manipulator, ManipulatorMode, Placement, Violation,
+};
+pub use solve::Account;

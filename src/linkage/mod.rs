@@ -2,6 +2,17 @@
 //!
 //! A [`Triad`] is a platform on three [`Dyad`]s; [`Triad::assemble`] finds every way to put it together.
 
+mod assemblies;
 mod group;
 
+pub use assemblies::{
+    Assemblies, AssemblyMode, ComplexMode, Rejection, RejectionReason, SelfMotion, Special, Status, ThetaPolynomial,
+};
 pub use group::{Dyad, Offset, Pose, Triad, TriadError};
+
+impl Triad {
+    /// Every way to put the triad together.
+    pub fn assemble(&self) -> Assemblies {
+        unimplemented!("being written")
+    }
+}

@@ -3,5 +3,7 @@
 //! A [`Manipulator`] is described once; [`Manipulator::forward`] locks its actuators and asks the triad that is left.
 
 mod describe;
+mod forward;
 
 pub use describe::{DescriptionError, JointKind, Leg, Manipulator, Placement};
+pub use forward::{AssemblyModes, ForwardError, ManipulatorMode, Violation};
