@@ -7,6 +7,7 @@ pub use num_complex;
 
 pub mod algebra;
 pub mod certify;
+pub mod eliminate;
 pub mod linkage;
 pub mod manipulator;
 pub mod solve;
