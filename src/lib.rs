@@ -20,4 +20,4 @@ pub use linkage::{
 pub use manipulator::{
     AssemblyModes, DescriptionError, ForwardError, JointKind, Leg, Manipulator, ManipulatorMode, Placement, Violation,
 };
-pub use solve::Account;
+pub use solve::{Account, Eliminant, EliminateError, Outcome, Plan, System, eliminate};
