@@ -10,6 +10,7 @@ pub mod certify;
 pub mod eliminate;
 pub mod linkage;
 pub mod manipulator;
+pub mod roots;
 pub mod solve;
 
 pub use certify::Verdict;
