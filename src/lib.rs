@@ -21,4 +21,7 @@ pub use linkage::{
 pub use manipulator::{
     AssemblyModes, DescriptionError, ForwardError, JointKind, Leg, Manipulator, ManipulatorMode, Placement, Violation,
 };
-pub use solve::{Account, Eliminant, EliminateError, Outcome, Plan, System, eliminate};
+pub use solve::{
+    Account, Eliminant, EliminateError, Outcome, Plan, RejectedRoot, RootRejection, Solution, Solutions, SolveError,
+    System, eliminate, lift, solve,
+};

@@ -4,11 +4,13 @@
 
 mod assemblies;
 mod group;
+mod name;
 
 pub use assemblies::{
     Assemblies, AssemblyMode, ComplexMode, Rejection, RejectionReason, SelfMotion, Special, Status, ThetaPolynomial,
 };
 pub use group::{Dyad, Offset, Pose, Triad, TriadError};
+pub use name::{DyadKind, GroupName, GroupNameError};
 
 impl Triad {
     /// Every way to put the triad together.
