@@ -3,12 +3,14 @@
 //! A [`Triad`] is a platform on three [`Dyad`]s; [`Triad::assemble`] finds every way to put it together.
 
 mod assemblies;
+mod dyad;
 mod group;
 mod name;
 
 pub use assemblies::{
     Assemblies, AssemblyMode, ComplexMode, Rejection, RejectionReason, SelfMotion, Special, Status, ThetaPolynomial,
 };
+pub use dyad::{Guide, TwoLinkAssemblies, TwoLinkAssembly, TwoLinkError, TwoLinkGroup, TwoLinkSpecial};
 pub use group::{Dyad, Offset, Pose, Triad, TriadError};
 pub use name::{DyadKind, GroupName, GroupNameError};
 
