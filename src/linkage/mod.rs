@@ -6,6 +6,7 @@ mod assemblies;
 mod dyad;
 mod group;
 mod name;
+mod slider_quadrics;
 
 pub use assemblies::{
     Assemblies, AssemblyMode, ComplexMode, Rejection, RejectionReason, SelfMotion, Special, Status, ThetaPolynomial,
@@ -13,6 +14,7 @@ pub use assemblies::{
 pub use dyad::{Guide, TwoLinkAssemblies, TwoLinkAssembly, TwoLinkError, TwoLinkGroup, TwoLinkSpecial};
 pub use group::{Dyad, Offset, Pose, Triad, TriadError};
 pub use name::{DyadKind, GroupName, GroupNameError};
+pub use slider_quadrics::{SliderPose, SliderQuadricsError, SliderSolutions, rp_rp_rp_quartic};
 
 impl Triad {
     /// Every way to put the triad together.
