@@ -9,6 +9,7 @@ pub mod algebra;
 pub mod certify;
 pub mod linkage;
 pub mod manipulator;
+pub mod roots;
 pub mod solve;
 
 pub use certify::Verdict;
