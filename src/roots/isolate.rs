@@ -7,7 +7,7 @@
 use dashu_int::UBig;
 use dashu_int::ops::BitTest;
 
-use crate::algebra::{Integer, Rational, Ring, UPoly};
+use crate::algebra::{Integer, Rational, UPoly};
 
 /// An interval with rational ends that holds exactly one real root.
 ///
@@ -139,7 +139,7 @@ fn shift_by_one(p: &mut [Integer]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::algebra::nearest_f64;
+    use crate::algebra::{Ring, nearest_f64};
 
     fn with_roots(roots: &[(i64, i64)]) -> UPoly<Integer> {
         roots.iter().fold(UPoly::one(), |p, &(n, d)| p * UPoly::new(vec![Integer::from(-n), Integer::from(d)]))

@@ -202,7 +202,9 @@ mod tests {
         // (x - 2^40)(2^40 x - 1)(x - i)
         let big = Integer::ONE << 40;
         let linear = |a: Gaussian<Integer>, b: Gaussian<Integer>| UPoly::new(vec![a, b]);
-        let p = linear(-Gaussian::real(big.clone()), g(1, 0)) * linear(g(-1, 0), Gaussian::real(big)) * linear(g(0, -1), g(1, 0));
+        let p = linear(-Gaussian::real(big.clone()), g(1, 0))
+            * linear(g(-1, 0), Gaussian::real(big))
+            * linear(g(0, -1), g(1, 0));
         let starts = [Complex64::new(1e12, 0.0), Complex64::new(1e-11, 1e-12), Complex64::new(0.1, 0.9)];
         let roots = polish_roots(&p, &starts, 200).unwrap();
         assert_eq!(roots[0].to_complex(), Complex64::new(2f64.powi(40), 0.0));
