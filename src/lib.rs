@@ -7,6 +7,7 @@ pub use num_complex;
 
 pub mod algebra;
 pub mod certify;
+pub mod eliminate;
 pub mod linkage;
 pub mod manipulator;
 pub mod roots;
@@ -20,4 +21,4 @@ pub use linkage::{
 pub use manipulator::{
     AssemblyModes, DescriptionError, ForwardError, JointKind, Leg, Manipulator, ManipulatorMode, Placement, Violation,
 };
-pub use solve::Account;
+pub use solve::{Account, Eliminant, EliminateError, Outcome, Plan, System, eliminate};
