@@ -17,6 +17,7 @@ pub use linkage::{
     ThetaPolynomial, Triad, TriadError,
 };
 pub use manipulator::{
-    AssemblyModes, DescriptionError, ForwardError, JointKind, Leg, Manipulator, ManipulatorMode, Placement, Violation,
+    AssemblyModes, DescriptionError, FamilyError, ForwardError, JointKind, JointsError, JointsReason, Leg, Manipulator,
+    ManipulatorMode, Placement, Remark, Violation, triad_degree,
 };
 pub use solve::Account;
