@@ -7,8 +7,12 @@ pub use num_complex;
 
 pub mod algebra;
 pub mod certify;
+#[cfg(feature = "exchange")]
+pub mod exchange;
 pub mod linkage;
 pub mod manipulator;
+#[cfg(feature = "plot")]
+pub mod plot;
 pub mod solve;
 
 pub use certify::Verdict;
