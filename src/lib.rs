@@ -13,6 +13,7 @@ pub mod linkage;
 pub mod manipulator;
 #[cfg(feature = "plot")]
 pub mod plot;
+pub mod roots;
 pub mod solve;
 
 pub use certify::Verdict;

@@ -2,17 +2,20 @@
 //!
 //! A [`Triad`] is a platform on three [`Dyad`]s; [`Triad::assemble`] finds every way to put it together.
 
+mod assemble;
 mod assemblies;
+mod fibre;
+mod given_orientation;
 mod group;
+mod numbers;
+mod place;
+mod special;
+mod triad;
+mod vanishing;
+mod verify;
 
 pub use assemblies::{
     Assemblies, AssemblyMode, ComplexMode, Rejection, RejectionReason, SelfMotion, Special, Status, ThetaPolynomial,
 };
 pub use group::{Dyad, Offset, Pose, Triad, TriadError};
-
-impl Triad {
-    /// Every way to put the triad together.
-    pub fn assemble(&self) -> Assemblies {
-        unimplemented!("being written")
-    }
-}
+pub use triad::{LegNumbers, Row, Rows, consistency, leg_row, triad_rows};
