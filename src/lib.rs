@@ -8,8 +8,12 @@ pub use num_complex;
 pub mod algebra;
 pub mod certify;
 pub mod eliminate;
+#[cfg(feature = "exchange")]
+pub mod exchange;
 pub mod linkage;
 pub mod manipulator;
+#[cfg(feature = "plot")]
+pub mod plot;
 pub mod roots;
 pub mod solve;
 
@@ -19,6 +23,7 @@ pub use linkage::{
     ThetaPolynomial, Triad, TriadError,
 };
 pub use manipulator::{
-    AssemblyModes, DescriptionError, ForwardError, JointKind, Leg, Manipulator, ManipulatorMode, Placement, Violation,
+    AssemblyModes, DescriptionError, FamilyError, ForwardError, JointKind, JointsError, JointsReason, Leg, Manipulator,
+    ManipulatorMode, Placement, Remark, Violation, triad_degree,
 };
 pub use solve::{Account, Eliminant, EliminateError, Outcome, Plan, System, eliminate};

@@ -2,8 +2,12 @@
 //!
 //! A [`Manipulator`] is described once; [`Manipulator::forward`] locks its actuators and asks the triad that is left.
 
+mod catalogue;
 mod describe;
 mod forward;
+mod mobility;
 
-pub use describe::{DescriptionError, JointKind, Leg, Manipulator, Placement};
+pub use catalogue::FamilyError;
+pub use describe::{DescriptionError, JointKind, JointsError, JointsReason, Leg, Manipulator, Placement};
 pub use forward::{AssemblyModes, ForwardError, ManipulatorMode, Violation};
+pub use mobility::{Remark, triad_degree};
