@@ -19,11 +19,11 @@ pub mod solve;
 
 pub use certify::Verdict;
 pub use linkage::{
-    Assemblies, AssemblyMode, ComplexMode, Dyad, Offset, Pose, Rejection, RejectionReason, SelfMotion, Special, Status,
-    ThetaPolynomial, Triad, TriadError,
+    Assemblies, AssemblyMode, ComplexMode, Dyad, Offset, PinnedDyad, PinnedDyadError, Pose, Rejection, RejectionReason,
+    SelfMotion, Special, Status, ThetaPolynomial, Triad, TriadError,
 };
 pub use manipulator::{
-    AssemblyModes, DescriptionError, FamilyError, ForwardError, JointKind, JointsError, JointsReason, Leg, Manipulator,
-    ManipulatorMode, Placement, Remark, Violation, triad_degree,
+    AssemblyModes, DescriptionError, FamilyError, JointKind, JointsError, JointsReason, Leg, LockError, LockedGroup,
+    Manipulator, ManipulatorMode, Placement, Remark, Violation, triad_degree,
 };
 pub use solve::{Account, Eliminant, EliminateError, Outcome, Plan, System, eliminate};

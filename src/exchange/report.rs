@@ -105,7 +105,7 @@ impl ForwardReport {
     /// The report on a manipulator.
     pub fn of_manipulator(answer: &AssemblyModes) -> Self {
         let modes = answer.modes.iter().map(ModeReport::from).collect();
-        Self { inputs: answer.inputs.clone(), ..Self::of(answer.triad.as_ref(), &answer.group, modes) }
+        Self { inputs: answer.inputs.clone(), ..Self::of(answer.triad(), &answer.group, modes) }
     }
 
     /// The report on a triad.

@@ -18,16 +18,17 @@ use num_complex::Complex64;
 use super::assemblies::{
     Assemblies, AssemblyMode, ComplexMode, Rejection, SelfMotion, Special, Status, ThetaPolynomial,
 };
-use super::fibre::{Fibre, parts};
+use super::fibre::{Fibre, Part, parts, parts_alike};
 use super::given_orientation::{Given, assemble_two, exact_rotation, same_orientation};
 use super::group::{Dyad, Pose, Triad};
 use super::numbers::{LocalLegs, TriadNumbers};
-use super::place::{Solution, place};
+use super::pinned::PinnedDyad;
+use super::place::{Placed, Solution, place, place_pinned};
 use super::special::special_shapes;
-use super::triad::{LegNumbers, rows_consistency, triad_rows};
+use super::triad::{LegNumbers, leg_row, rows_consistency, triad_rows};
 use super::vanishing::motions;
-use super::verify::{Placement, complex_residual, determinant, residual, size};
-use crate::algebra::{Gaussian, Integer, Trig};
+use super::verify::{Placement, complex_residual, determinant, pinned_determinant, residual, size};
+use crate::algebra::{Gaussian, Integer, Ring, Trig};
 use crate::certify::Verdict;
 use crate::roots::{NotLocated, scaled};
 use crate::solve::Account;
@@ -62,29 +63,9 @@ impl Triad {
     /// # Ok::<(), assur::TriadError>(())
     /// ```
     pub fn assemble(&self) -> Assemblies {
-        let numbers = TriadNumbers::of(self);
+        let numbers = TriadNumbers::of(self.legs());
         let local = LocalLegs::of(&numbers);
-        let (a0, b0) =
-            self.legs().get(numbers.order.first().copied().unwrap_or(0)).map_or_else(Default::default, points);
-        let mut gathering = Gathering {
-            size: size(&local.legs),
-            legs: &local.legs,
-            unit: local.unit,
-            a0,
-            b0,
-            out: Assemblies {
-                status: Status::Complete,
-                modes: Vec::new(),
-                complex: Vec::new(),
-                account: Account { degree: self.degree(), ..Account::default() },
-                rejections: Vec::new(),
-                self_motions: Vec::new(),
-                special: special_shapes(self.legs(), &numbers),
-                polynomial: None,
-                size: 0.0,
-                origin: Vector2::new(a0.re, a0.im),
-            },
-        };
+        let mut gathering = Gathering::new(self.legs(), self.degree(), &numbers, &local);
         let exponent = local.unit + numbers.length_shift;
         match <&[LegNumbers<Integer>; 3]>::try_from(&numbers.legs[..]) {
             Ok(legs) => {
@@ -94,6 +75,28 @@ impl Triad {
             Err(_) => gathering.translating_platform(self.legs(), &numbers.legs, exponent),
         }
         gathering.finish()
+    }
+}
+
+impl PinnedDyad {
+    /// Every way to put the pinned platform together: two, one with a PP leg, or none.
+    ///
+    /// Units, frame, proof and cost as in [`Triad::assemble`]. `det_a` is the moment arm of the leg about the pin.
+    pub fn assemble(&self) -> Assemblies {
+        let legs = self.as_legs();
+        let numbers = TriadNumbers::of(&legs);
+        let local = LocalLegs::of(&numbers);
+        let mut gathering = Gathering { pinned: true, ..Gathering::new(&legs, self.degree(), &numbers, &local) };
+        gathering.out.special.retain(|&special| special != Special::ZeroLength || self.leg_is_point());
+        match (self.leg(), numbers.legs.get(1)) {
+            (Dyad::PP { phi }, _) => gathering.pinned_at(*phi),
+            (_, leg) => gathering.pinned_platform(leg.expect("a leg other than PP has numbers")),
+        }
+        gathering.finish()
+    }
+
+    fn leg_is_point(&self) -> bool {
+        matches!(self.leg(), Dyad::RR { length: 0.0, .. })
     }
 }
 
@@ -109,6 +112,8 @@ fn points(leg: &Dyad) -> (Complex64, Complex64) {
 
 /// An answer in the making.
 struct Gathering<'a> {
+    /// Whether the reference point is a pin.
+    pinned: bool,
     legs: &'a [LegNumbers<f64>],
     /// Lengths of `legs` are in units of `2^unit`.
     unit: i64,
@@ -118,7 +123,31 @@ struct Gathering<'a> {
     out: Assemblies,
 }
 
-impl Gathering<'_> {
+impl<'a> Gathering<'a> {
+    fn new(legs: &[Dyad], degree: usize, numbers: &TriadNumbers, local: &'a LocalLegs) -> Self {
+        let (a0, b0) = numbers.order.first().map_or_else(Default::default, |&i| points(&legs[i]));
+        Self {
+            pinned: false,
+            size: size(&local.legs),
+            legs: &local.legs,
+            unit: local.unit,
+            a0,
+            b0,
+            out: Assemblies {
+                status: Status::Complete,
+                modes: Vec::new(),
+                complex: Vec::new(),
+                account: Account { degree, ..Account::default() },
+                rejections: Vec::new(),
+                self_motions: Vec::new(),
+                special: special_shapes(legs, numbers),
+                polynomial: None,
+                size: 0.0,
+                origin: Vector2::new(a0.re, a0.im),
+            },
+        }
+    }
+
     /// Three legs without PP: the orientations are the roots of `T`.
     fn turning_platform(&mut self, legs: &[LegNumbers<Integer>; 3], order: usize, exponent: i64) {
         let symbols = legs.each_ref().map(|leg| leg.map(|x| Trig::constant(x.clone())));
@@ -135,17 +164,42 @@ impl Gathering<'_> {
         }
         self.out.account.at_infinity += 2 * (order - t.order());
         for part in parts(&t, &rows) {
-            let degree = part.in_chart.degree().unwrap_or(0);
-            match place(&part, &rows, exponent) {
-                Ok(placed) => {
-                    for (theta, on_circle, solutions) in placed.roots {
-                        self.take_root(theta, on_circle, &solutions, part.multiplicity, part.fibre);
-                    }
+            self.take_part(&part, place(&part, &rows, exponent));
+        }
+    }
+
+    /// A pinned platform on one leg without PP: its row at `u = 0` is the consistency polynomial.
+    fn pinned_platform(&mut self, leg: &LegNumbers<Integer>) {
+        let symbols = leg.map(|x| Trig::constant(x.clone()));
+        let t = leg_row(&symbols, &Trig::zero(), &Trig::cosine(), &Trig::sine()).e;
+        self.out.polynomial = Some(shown(&t, 1));
+        if t.vanishes() {
+            self.out.account.degree = 0;
+            self.note_motion(SelfMotion { phi: None, real: true });
+            return;
+        }
+        self.out.account.at_infinity += 2 * (1 - t.order());
+        for part in parts_alike(&t, Fibre::Centre) {
+            self.take_part(&part, place_pinned(&part));
+        }
+    }
+
+    /// A pinned platform with its orientation given.
+    fn pinned_at(&mut self, phi: f64) {
+        let theta = Complex64::from_polar(1.0, phi);
+        self.take_solution(Solution { theta, u: [Complex64::ZERO; 2], real: true, twin: false }, 1);
+    }
+
+    fn take_part(&mut self, part: &Part, placed: Result<Placed, NotLocated>) {
+        match placed {
+            Ok(placed) => {
+                for (theta, on_circle, solutions) in placed.roots {
+                    self.take_root(theta, on_circle, &solutions, part.multiplicity, part.fibre);
                 }
-                Err(NotLocated::NotSettled(_) | NotLocated::Ambiguous { .. }) => {
-                    self.out.account.undecided += degree * part.multiplicity;
-                    self.out.status = Status::Undecided;
-                }
+            }
+            Err(NotLocated::NotSettled(_) | NotLocated::Ambiguous { .. }) => {
+                self.out.account.undecided += part.in_chart.degree().unwrap_or(0) * part.multiplicity;
+                self.out.status = Status::Undecided;
             }
         }
     }
@@ -258,7 +312,7 @@ impl Gathering<'_> {
         // The pose's own rounded angle turns the reference point, so that the rounding of phi does not swing the platform about a
         // far origin.
         let origin = self.a0 + self.length(solution.u[0]) - Complex64::from_polar(1.0, phi) * self.b0;
-        let det_a = determinant(self.legs, at) / scale;
+        let det_a = if self.pinned { pinned_determinant(self.legs, at) } else { determinant(self.legs, at) } / scale;
         let sound = residual <= CLOSURE_GUARD && origin.is_finite();
         if sound {
             let pose = Pose::new(origin.re, origin.im, phi);

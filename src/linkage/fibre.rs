@@ -97,6 +97,13 @@ pub(super) fn parts(t: &Trig<Integer>, rows: &Rows<Trig<Integer>>) -> Vec<Part> 
     out
 }
 
+/// The roots of `t` in square-free parts, where one and the same lies above all of them.
+pub(super) fn parts_alike(t: &Trig<Integer>, fibre: Fibre) -> Vec<Part> {
+    let chart = Chart::without_infinity(t);
+    let part = |(in_chart, multiplicity)| Part { in_theta: chart.to_theta(&in_chart), in_chart, multiplicity, fibre };
+    chart.polynomial(t).square_free().into_iter().map(part).collect()
+}
+
 fn split_by_fibre(factor: UPoly<Integer>, chart: Chart, rows: &Rows<Trig<Integer>>) -> Vec<(UPoly<Integer>, Fibre)> {
     let split = |p: UPoly<Integer>, by: &[Trig<Integer>]| split(p, by.iter().map(|f| chart.polynomial(f)));
     match rows {

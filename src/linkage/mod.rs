@@ -8,6 +8,7 @@ mod fibre;
 mod given_orientation;
 mod group;
 mod numbers;
+mod pinned;
 mod place;
 mod special;
 mod triad;
@@ -18,4 +19,5 @@ pub use assemblies::{
     Assemblies, AssemblyMode, ComplexMode, Rejection, RejectionReason, SelfMotion, Special, Status, ThetaPolynomial,
 };
 pub use group::{Dyad, Offset, Pose, Triad, TriadError};
+pub use pinned::{PinnedDyad, PinnedDyadError};
 pub use triad::{LegNumbers, Row, Rows, consistency, leg_row, triad_rows};

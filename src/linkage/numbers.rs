@@ -9,11 +9,11 @@ use dashu_int::UBig;
 use dashu_int::ops::{BitTest, SquareRootRem};
 use nalgebra::Vector2;
 
-use super::group::{Dyad, Offset, Triad};
+use super::group::{Dyad, Offset};
 use super::triad::LegNumbers;
 use crate::algebra::{Gaussian, Integer, Rational, dyadic, ratio_to_f64};
 
-/// The legs of a triad that are not PP, as integers, reference leg first.
+/// The legs of a group that are not PP, as integers, reference leg first.
 #[derive(Clone, Debug)]
 pub(super) struct TriadNumbers {
     /// Numbers of the legs in the order of `order`.
@@ -25,10 +25,10 @@ pub(super) struct TriadNumbers {
 }
 
 impl TriadNumbers {
-    /// The integers of a triad; the RR leg with the smallest length is the reference, or else the first leg that is not PP.
-    pub fn of(triad: &Triad) -> Self {
-        let mut order: Vec<usize> = (0..3).filter(|&i| !matches!(triad.legs()[i], Dyad::PP { .. })).collect();
-        let reference = order.iter().copied().filter_map(|i| match triad.legs()[i] {
+    /// The integers of a group's legs; the RR leg with the smallest length is the reference, or else the first leg that is not PP.
+    pub fn of(legs: &[Dyad]) -> Self {
+        let mut order: Vec<usize> = (0..legs.len()).filter(|&i| !matches!(legs[i], Dyad::PP { .. })).collect();
+        let reference = order.iter().copied().filter_map(|i| match legs[i] {
             Dyad::RR { length, .. } => Some((length, i)),
             _ => None,
         });
@@ -36,7 +36,7 @@ impl TriadNumbers {
             order.retain(|&i| i != reference);
             order.insert(0, reference);
         }
-        let exact: Vec<ExactLeg> = order.iter().map(|&i| ExactLeg::of(&triad.legs()[i])).collect();
+        let exact: Vec<ExactLeg> = order.iter().map(|&i| ExactLeg::of(&legs[i])).collect();
         let length_shift = exact.iter().map(ExactLeg::length_shift).max().unwrap_or(0);
         let (a0, b0) = match exact.first() {
             Some(leg) => (leg.a.clone(), leg.b.clone()),
@@ -243,8 +243,7 @@ mod tests {
     fn a_far_origin_leaves_the_differences_exact() {
         let far = 2f64.powi(40);
         let leg = |x: f64, length| Dyad::RR { a: Vector2::new(far + x, -far), b: Vector2::new(x, far), length };
-        let triad = Triad::new([leg(0.0, 2.0), leg(0.25, 1.0), leg(3.0, 0.5)]).unwrap();
-        let numbers = TriadNumbers::of(&triad);
+        let numbers = TriadNumbers::of(&[leg(0.0, 2.0), leg(0.25, 1.0), leg(3.0, 0.5)]);
         assert_eq!(numbers.order, [2, 0, 1]);
         assert_eq!(numbers.length_shift, 2);
         let LegNumbers::Circle { alpha, beta, length } = &numbers.legs[1] else { panic!("an RR leg") };

@@ -33,7 +33,15 @@ pub(super) struct Placed {
 
 /// Solves every fibre of a part. `exponent` is the unit of length, in bits of the integers.
 pub(super) fn place(part: &Part, rows: &Rows<Trig<Integer>>, exponent: i64) -> Result<Placed, NotLocated> {
-    let rows = ThetaRows::of(rows);
+    place_on(part, &ThetaRows::of(rows), exponent)
+}
+
+/// The same for a platform pinned at the reference point, above which nothing is left to solve.
+pub(super) fn place_pinned(part: &Part) -> Result<Placed, NotLocated> {
+    place_on(part, &ThetaRows { radius: None, rows: Vec::new() }, 0)
+}
+
+fn place_on(part: &Part, rows: &ThetaRows, exponent: i64) -> Result<Placed, NotLocated> {
     let mut bits = FIRST_BITS;
     loop {
         let roots = locate_on_circle(&part.in_theta, &part.in_chart, bits)?;

@@ -7,7 +7,7 @@ use super::triad::LegNumbers;
 use crate::algebra::{Domain, Gaussian, Integer};
 
 /// The special shapes of a triad, in no order, each once.
-pub(super) fn special_shapes(legs: &[Dyad; 3], numbers: &TriadNumbers) -> Vec<Special> {
+pub(super) fn special_shapes(legs: &[Dyad], numbers: &TriadNumbers) -> Vec<Special> {
     let mut out = Vec::new();
     let mut note = |holds: bool, special: Special| {
         if holds {

@@ -79,6 +79,13 @@ pub(super) fn determinant(legs: &[LegNumbers<f64>], at: Placement) -> f64 {
     a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
 }
 
+/// det A of a platform pinned at the reference point: the moment of the other leg's unit force about the pin.
+///
+/// Without another leg, the moment that holds the orientation.
+pub(super) fn pinned_determinant(legs: &[LegNumbers<f64>], at: Placement) -> f64 {
+    legs.get(1).map_or(1.0, |leg| wrench(leg, at)[2])
+}
+
 /// The largest length among the legs: distances of base points, of platform points, leg lengths and offsets.
 pub(super) fn size(legs: &[LegNumbers<f64>]) -> f64 {
     let points = legs.iter().map(|leg| match leg {

@@ -5,9 +5,13 @@
 mod catalogue;
 mod describe;
 mod forward;
+mod frame;
+mod joints;
+mod lock;
 mod mobility;
 
 pub use catalogue::FamilyError;
 pub use describe::{DescriptionError, JointKind, JointsError, JointsReason, Leg, Manipulator, Placement};
-pub use forward::{AssemblyModes, ForwardError, ManipulatorMode, Violation};
+pub use forward::{AssemblyModes, ManipulatorMode, Violation};
+pub use lock::{LockError, LockedGroup};
 pub use mobility::{Remark, triad_degree};
