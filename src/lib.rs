@@ -20,10 +20,10 @@ pub mod solve;
 pub use certify::Verdict;
 pub use linkage::{
     Assemblies, AssemblyMode, ComplexMode, Dyad, Offset, PinnedDyad, PinnedDyadError, Pose, Rejection, RejectionReason,
-    SelfMotion, Special, Status, ThetaPolynomial, Triad, TriadError,
+    SelfMotion, Special, Status, ThetaPolynomial, Triad, TriadError, triad_degree,
 };
 pub use manipulator::{
     AssemblyModes, DescriptionError, FamilyError, JointKind, JointsError, JointsReason, Leg, LockError, LockedGroup,
-    Manipulator, ManipulatorMode, Placement, Remark, Violation, triad_degree,
+    Manipulator, ManipulatorMode, Placement, Remark, Violation,
 };
 pub use solve::{Account, Eliminant, EliminateError, Outcome, Plan, System, eliminate};

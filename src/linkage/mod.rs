@@ -4,6 +4,7 @@
 
 mod assemble;
 mod assemblies;
+mod constraint;
 mod fibre;
 mod given_orientation;
 mod group;
@@ -18,6 +19,7 @@ mod verify;
 pub use assemblies::{
     Assemblies, AssemblyMode, ComplexMode, Rejection, RejectionReason, SelfMotion, Special, Status, ThetaPolynomial,
 };
-pub use group::{Dyad, Offset, Pose, Triad, TriadError};
+pub use constraint::{RotationNumbers, constraint_system, sylvester_plan};
+pub use group::{Dyad, Offset, Pose, Triad, TriadError, triad_degree};
 pub use pinned::{PinnedDyad, PinnedDyadError};
 pub use triad::{LegNumbers, Row, Rows, consistency, leg_row, triad_rows};
