@@ -370,34 +370,41 @@ fn eigenvalues_real(coefficients: &[Complex64]) -> Option<Vec<Complex64>> {
 
 /// Balancing by powers of two: a diagonal similarity after which each row is about as large as its column. Exact.
 fn balance<T: Copy>(rows: &mut [Vec<T>], size: impl Fn(&T) -> f64, scaled: impl Fn(T, f64) -> T) {
-    /// Parlett and Reinsch's: a scaling must lower the sum of both norms by a twentieth to be worth it.
-    const WORTH: f64 = 0.95;
     /// Heuristic end for matrices that keep creeping; companions settle in about five sweeps.
     const SWEEPS: usize = 100;
-    let n = rows.len();
     for _ in 0..SWEEPS {
-        let mut settled = true;
-        for k in 0..n {
-            let off_diagonal = (0..n).filter(|&j| j != k);
-            let (column, row) =
-                off_diagonal.fold((0.0, 0.0), |(c, r), j| (c + size(&rows[j][k]), r + size(&rows[k][j])));
-            if column == 0.0 || row == 0.0 {
-                continue;
-            }
-            let exponent = ((row / column).log2() / 2.0).round();
-            let factor = exponent.exp2();
-            if column * factor + row / factor < WORTH * (column + row) {
-                settled = false;
-                for j in 0..n {
-                    rows[k][j] = scaled(rows[k][j], 1.0 / factor);
-                    rows[j][k] = scaled(rows[j][k], factor);
-                }
-            }
-        }
-        if settled {
+        let changed = (0..rows.len()).filter(|&k| balance_one(rows, k, &size, &scaled)).count();
+        if changed == 0 {
             break;
         }
     }
+}
+
+/// Balances one row against its column; whether that was worth doing.
+fn balance_one<T: Copy>(
+    rows: &mut [Vec<T>],
+    k: usize,
+    size: &impl Fn(&T) -> f64,
+    scaled: &impl Fn(T, f64) -> T,
+) -> bool {
+    /// Parlett and Reinsch's: a scaling must lower the sum of both norms by a twentieth to be worth it.
+    const WORTH: f64 = 0.95;
+    let off_diagonal = (0..rows.len()).filter(|&j| j != k);
+    let (column, row) = off_diagonal.fold((0.0, 0.0), |(c, r), j| (c + size(&rows[j][k]), r + size(&rows[k][j])));
+    if column == 0.0 || row == 0.0 {
+        return false;
+    }
+    let factor = ((row / column).log2() / 2.0).round().exp2();
+    if column * factor + row / factor >= WORTH * (column + row) {
+        return false;
+    }
+    for entry in &mut rows[k] {
+        *entry = scaled(*entry, 1.0 / factor);
+    }
+    for row in rows {
+        row[k] = scaled(row[k], factor);
+    }
+    true
 }
 
 /// Makes numbers that are nearly closed under conjugation exactly so.
