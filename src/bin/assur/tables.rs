@@ -6,7 +6,7 @@ use anstyle::{AnsiColor, Style};
 use assur::exchange::{AngleUnit, CheckReport, ModelFile};
 use assur::num_complex::Complex64;
 use assur::{Assemblies, AssemblyMode, AssemblyModes, JointKind, Manipulator, Status, Triad};
-use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
+use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle};
 
 use crate::args::Asked;
 
@@ -66,19 +66,14 @@ pub(crate) fn forward(model: &ModelFile, answer: &AssemblyModes, asked: &Asked) 
     if !answer.modes.is_empty() {
         let mut header = pose_header(unit);
         header.extend(["signs".to_owned()]);
-        header.extend((1..=robot.legs.len()).map(|leg| format!("leg {leg}: q1  q2  q3")));
         let mut table = table(&header);
         for (number, mode) in (1..).zip(&answer.modes) {
             let mut row = pose_row(number, &mode.mode, unit);
             row.push(mode.signs.clone());
-            for (leg, values) in robot.legs.iter().zip(&mode.joints) {
-                let values = leg.joints.iter().zip(values);
-                let values = values.map(|(&kind, &value)| digits(unit.joint_from_rad(kind, value), SIDE_DIGITS));
-                row.push(values.collect::<Vec<_>>().join("  "));
-            }
             table.add_row(row);
         }
         line(&mut text, format_args!("{table}"));
+        line(&mut text, format_args!("joint values, by leg and joint\n{}", joints(model, answer)));
         for (number, mode) in (1..).zip(&answer.modes) {
             for violation in &mode.violations {
                 let kind = robot.legs[violation.leg - 1].joints[violation.joint - 1];
@@ -91,6 +86,25 @@ pub(crate) fn forward(model: &ModelFile, answer: &AssemblyModes, asked: &Asked) 
     }
     group_facts(&mut text, &answer.group, unit, asked);
     text
+}
+
+/// All joint values, one mode a row; actuated joints between underscores.
+fn joints(model: &ModelFile, answer: &AssemblyModes) -> Table {
+    let legs = &model.manipulator.legs;
+    let joint = |leg: usize, joint: usize| {
+        let mark = if legs[leg].actuated[joint] { "_" } else { "" };
+        format!("{}.{} {mark}{}{mark}", leg + 1, joint + 1, legs[leg].joints[joint].letter())
+    };
+    let mut header = vec!["mode".to_owned()];
+    header.extend((0..legs.len()).flat_map(|leg| (0..3).map(move |number| (leg, number))).map(|(l, j)| joint(l, j)));
+    let mut table = table(&header);
+    for (number, mode) in (1..).zip(&answer.modes) {
+        let kinds = legs.iter().flat_map(|leg| leg.joints);
+        let values = mode.joints.iter().flatten().zip(kinds);
+        let values = values.map(|(&value, kind)| digits(model.angle_unit.joint_from_rad(kind, value), SIDE_DIGITS));
+        table.add_row(std::iter::once(number.to_string()).chain(values));
+    }
+    table
 }
 
 pub(crate) fn triad(triad: &Triad, answer: &Assemblies, asked: &Asked) -> String {
@@ -192,7 +206,8 @@ fn inputs_as_given(robot: &Manipulator, inputs: &[f64], unit: AngleUnit) -> Stri
 
 fn table<T: Into<comfy_table::Cell> + Clone>(header: &[T]) -> Table {
     let mut table = Table::new();
-    table.load_style(presets::UTF8_HORIZONTAL_ONLY).set_content_arrangement(ContentArrangement::Dynamic);
+    let style = TableStyle::new().header_separator(LineStyle::none().fill('─').junction('─'));
+    table.load_style(style).set_content_arrangement(ContentArrangement::Dynamic);
     table.set_header(header.to_vec());
     table.column_iter_mut().for_each(|column| column.set_cell_alignment(CellAlignment::Right));
     table
