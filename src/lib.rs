@@ -27,3 +27,8 @@ pub use manipulator::{
     Manipulator, ManipulatorMode, Placement, Remark, Violation, triad_degree,
 };
 pub use solve::{Account, Eliminant, EliminateError, Outcome, Plan, System, eliminate};
+
+/// The README's code runs as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
