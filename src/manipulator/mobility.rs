@@ -37,6 +37,16 @@ impl Remark {
     }
 }
 
+impl Remark {
+    /// The leg it is about, from 1; `None` where it is about all.
+    pub fn leg(self) -> Option<usize> {
+        match self {
+            Self::OrientationTwice => None,
+            Self::ParallelSliders { leg } | Self::CoincidentPivots { leg } => Some(leg),
+        }
+    }
+}
+
 impl fmt::Display for Remark {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
