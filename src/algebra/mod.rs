@@ -5,6 +5,7 @@
 //! stand polynomials in one variable ([`UPoly`]), in many ([`Poly`]), and on the unit circle ([`Trig`]).
 
 mod gaussian;
+mod gcd;
 mod monomial;
 mod poly;
 mod rational;

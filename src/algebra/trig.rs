@@ -75,10 +75,19 @@ impl<R: Ring> Trig<R> {
     ///
     /// `order` is at least [`Trig::order`]. Degrees missing at the top are roots at `phi = pi`.
     pub fn half_angle(&self, order: usize) -> UPoly<R> {
-        let c = UPoly::new(vec![R::one(), R::zero(), -R::one()]);
-        let s = UPoly::new(vec![R::zero(), R::from_int(2)]);
-        let w = UPoly::new(vec![R::one(), R::zero(), R::one()]);
-        self.homogeneous(order, &c, &s, &w, |x| UPoly::constant(x.clone()))
+        self.half_angle_about(order, 0)
+    }
+
+    /// The half-angle polynomial in another chart: `t = tan((phi - phi0)/2)` with `tan(phi0/2) = tau`.
+    ///
+    /// Up to the factor `(1 + tau²)^order`. Degrees missing at the top are roots at `phi0 + pi`, so one chart or another has none.
+    pub fn half_angle_about(&self, order: usize, tau: i64) -> UPoly<R> {
+        let linear = |a: i64, b: i64| UPoly::new(vec![R::from_int(a), R::from_int(b)]);
+        // tan(phi/2) = n/d
+        let (n, d) = (linear(tau, 1), linear(1, -tau));
+        let (n2, d2) = (n.power(2), d.power(2));
+        let s = UPoly::from_int(2) * n * d;
+        self.homogeneous(order, &(d2.clone() - n2.clone()), &s, &(d2 + n2), |x| UPoly::constant(x.clone()))
     }
 
     /// `(2 theta)^order · T` with `cos = (theta + 1/theta)/2`, `sin = (theta - 1/theta)/(2i)`: a polynomial in `theta` of formal

@@ -1,0 +1,35 @@
+//! Model files and reports: one serialisable form for files, command line, Python and web.
+//!
+//! A file is read into a tree of plain values first, TOML and JSON alike, then walked by a reader that knows where it is; so every
+//! error names the file, the leg, the field and the value. Nothing here knows how anything is solved.
+//!
+//! ```
+//! # fn main() -> Result<(), assur::exchange::FileError> {
+//! use assur::exchange::ModelFile;
+//! let text = r#"
+//! schema = "assur/manipulator/1"
+//! leg = [
+//!     { joints = "R_P_R", base = { at = [0, 0] }, platform = { at = [0, 0] } },
+//!     { joints = "R_P_R", base = { at = [16, 0] }, platform = { at = [17, 0] } },
+//!     { joints = "R_P_R", base = { at = [0, 10] }, platform = { at = [13, -3] } },
+//! ]
+//! "#;
+//! assert_eq!(ModelFile::parse(text, "strut.toml")?.manipulator.family(), "3-R_P_R");
+//! # Ok(())
+//! # }
+//! ```
+
+mod check;
+mod error;
+mod model;
+mod reader;
+mod report;
+mod tree;
+mod triad_file;
+mod write;
+
+pub use check::{CheckReport, LegReport, RemarkReport};
+pub use error::{FieldProblem, FileError, Format};
+pub use model::{AngleUnit, ModelFile};
+pub use report::{ForwardReport, ModeReport};
+pub use triad_file::{DyadEntry, TriadFile, read_triad};

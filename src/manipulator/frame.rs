@@ -1,0 +1,91 @@
+//! Rigid motions as chains of placements.
+//!
+//! A frame keeps its direction as a vector of any length: products of directions such as (3, 4) with the unturned (1, 0) stay
+//! exact, and only where a point is moved is the direction brought to length one.
+
+use nalgebra::Vector2;
+
+use super::describe::{JointKind, Placement};
+use crate::linkage::Pose;
+
+/// `p` turned by the direction `d` as a complex number of any length.
+pub(super) fn times(d: Vector2<f64>, p: Vector2<f64>) -> Vector2<f64> {
+    Vector2::new(d.x * p.x - d.y * p.y, d.x * p.y + d.y * p.x)
+}
+
+/// The direction turned back: the complex conjugate.
+pub(super) fn back(d: Vector2<f64>) -> Vector2<f64> {
+    Vector2::new(d.x, -d.y)
+}
+
+/// A direction of length one.
+pub(super) fn unit(d: Vector2<f64>) -> Vector2<f64> {
+    // Axes and directions already of length one pass unchanged.
+    let length = d.x.hypot(d.y);
+    if length == 1.0 { d } else { d / length }
+}
+
+impl Placement {
+    /// This motion followed by another, given in the frame this one leads to.
+    pub(super) fn then(&self, next: &Self) -> Self {
+        Self { at: self.at + times(unit(self.direction), next.at), direction: times(self.direction, next.direction) }
+    }
+
+    /// The motion of a joint by `q`.
+    pub(super) fn joint(kind: JointKind, q: f64) -> Self {
+        match kind {
+            JointKind::Revolute => Self::turned(0.0, 0.0, q),
+            JointKind::Prismatic => Self::at(q, 0.0),
+        }
+    }
+
+    /// The motion back.
+    pub(super) fn inverse(&self) -> Self {
+        let direction = back(self.direction);
+        Self { at: -times(unit(direction), self.at), direction }
+    }
+
+    /// A pose as a placement.
+    pub(super) fn of_pose(pose: &Pose) -> Self {
+        Self::turned(pose.x, pose.y, pose.phi)
+    }
+
+    /// The angle of the direction, in (-pi, pi].
+    pub(super) fn angle(&self) -> f64 {
+        principal_angle(self.direction.y.atan2(self.direction.x))
+    }
+
+    /// This placement as a pose.
+    pub(super) fn pose(&self) -> Pose {
+        Pose::new(self.at.x, self.at.y, self.angle())
+    }
+}
+
+/// The angle in (-pi, pi]; -pi is written pi. Takes any angle within a few turns.
+pub(super) fn principal_angle(angle: f64) -> f64 {
+    use std::f64::consts::{PI, TAU};
+    let reduced = angle - TAU * (angle / TAU).round();
+    if reduced <= -PI { PI } else { reduced }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn motions_compose_and_undo() {
+        let a = Placement::turned(1.0, 2.0, 0.7);
+        let b = Placement { at: Vector2::new(-3.0, 0.5), direction: Vector2::new(3.0, 4.0) };
+        let round = a.then(&b).then(&b.inverse()).then(&a.inverse());
+        assert!(round.at.norm() < 1e-15 && round.angle().abs() < 1e-15);
+        assert_eq!(Placement::default().then(&b).direction, b.direction);
+    }
+
+    #[test]
+    fn angles_are_principal() {
+        use std::f64::consts::PI;
+        assert_eq!(principal_angle(-PI), PI);
+        assert_eq!(principal_angle(3.0 * PI), PI);
+        assert_eq!(principal_angle(0.25), 0.25);
+    }
+}

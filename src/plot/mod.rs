@@ -1,0 +1,16 @@
+//! Drawings of results as SVG: every assembly mode as a small multiple, all on one scale.
+//!
+//! A result becomes one scene a mode (what is drawn, in length units), the scenes become a sheet (where it is drawn, in pixels).
+//! Nothing is solved here; the chains are drawn from their joint values, so a chain that does not close shows.
+//!
+//! Symbols: circles are revolute joints, blocks on a guide are sliders, telescopes are sliders between two links, hatching is the
+//! ground, filled in colour is actuated, ringed is outside its limits.
+
+mod modes;
+mod scene;
+mod sheet;
+mod symbols;
+mod triads;
+
+pub use modes::draw_modes;
+pub use triads::draw_assemblies;

@@ -1,0 +1,113 @@
+//! The assembly modes of a manipulator: each chain drawn from its nine joint values.
+
+use nalgebra::{Isometry2, Translation2, UnitComplex, Vector2};
+
+use super::scene::{Look, Mark, Scene, caption, number, summary};
+use super::sheet::sheet;
+use crate::manipulator::{AssemblyModes, JointKind, Leg, Manipulator, ManipulatorMode, Placement};
+
+/// Every assembly mode of a manipulator as one SVG document, small multiples on one scale.
+///
+/// The scale is set by the ordinary modes; one that runs many times as far is cut off and says so. Without modes the base is drawn.
+pub fn draw_modes(robot: &Manipulator, answer: &AssemblyModes) -> String {
+    let mut scenes: Vec<Scene> =
+        (1..).zip(&answer.modes).map(|(number, mode)| mode_scene(robot, mode, number)).collect();
+    if scenes.is_empty() {
+        scenes.push(base_scene(robot));
+    }
+    let inputs =
+        robot.actuated_joints().zip(&answer.inputs).map(|((leg, joint), &value)| match robot.legs[leg].joints[joint] {
+            JointKind::Revolute => format!("{}°", number(value.to_degrees())),
+            JointKind::Prismatic => number(value),
+        });
+    let inputs = inputs.collect::<Vec<_>>().join(", ");
+    let count = summary(&answer.group.account, answer.modes.len(), answer.group.status);
+    let title = if robot.name.is_empty() { robot.family() } else { robot.name.clone() };
+    sheet(&title, &format!("{}  ·  inputs {inputs}  ·  {count}", robot.family()), &scenes)
+}
+
+fn mode_scene(robot: &Manipulator, mode: &ManipulatorMode, number: usize) -> Scene {
+    let pose = mode.mode.pose;
+    let corners = robot.legs.iter().map(|leg| pose.place(leg.platform.at)).collect();
+    let mut marks = vec![Mark::Body { corners }, Mark::Frame { pose: pose.isometry() }];
+    for (index, (leg, values)) in robot.legs.iter().zip(&mode.joints).enumerate() {
+        let look = |joint: usize| Look {
+            actuated: leg.actuated[joint],
+            violated: mode.violations.iter().any(|found| (found.leg, found.joint) == (index + 1, joint + 1)),
+        };
+        draw_chain(&mut marks, leg, values, index + 1, look);
+    }
+    let caption = caption(&mode.mode, &mode.signs, !mode.violations.is_empty());
+    Scene { marks, number: Some(number), caption, pose: Some(pose) }
+}
+
+fn draw_chain(marks: &mut Vec<Mark>, leg: &Leg, values: &[f64; 3], number: usize, look: impl Fn(usize) -> Look) {
+    let [inner, outer] = chain(leg, values);
+    let at = |frame: &Isometry2<f64>| frame.translation.vector;
+    let along = |frame: &Isometry2<f64>| frame.rotation * Vector2::x();
+    for joint in 0..3 {
+        let (from, to, direction) = (at(&inner[joint]), at(&outer[joint]), along(&inner[joint]));
+        match (leg.joints[joint], joint) {
+            (JointKind::Revolute, _) => {
+                if joint == 0 {
+                    marks.push(Mark::Ground { at: from, leg: number });
+                }
+                marks.push(Mark::Pin { at: from, look: look(joint) });
+            }
+            (JointKind::Prismatic, 0) => {
+                marks.push(Mark::Rail { from, to, along: direction, fixed: true });
+                marks.push(Mark::Block { at: to, along: direction, look: look(joint) });
+            }
+            (JointKind::Prismatic, 1) => marks.push(Mark::Telescope { from, to, look: look(joint) }),
+            // A last slider runs on a guide of the platform.
+            (JointKind::Prismatic, _) => {
+                marks.push(Mark::Rail { from: to, to: from, along: direction, fixed: false });
+                marks.push(Mark::Block { at: from, along: direction, look: look(joint) });
+            }
+        }
+    }
+    for joint in 0..2 {
+        marks.push(Mark::Bar { from: at(&outer[joint]), to: at(&inner[joint + 1]) });
+    }
+}
+
+/// The frames before each joint and after it, in the base frame.
+fn chain(leg: &Leg, values: &[f64; 3]) -> [[Isometry2<f64>; 3]; 2] {
+    let mut frame = rigid_motion(&leg.base);
+    let [mut inner, mut outer] = [[Isometry2::identity(); 3]; 2];
+    for joint in 0..3 {
+        inner[joint] = frame;
+        frame *= match leg.joints[joint] {
+            JointKind::Revolute => Isometry2::rotation(values[joint]),
+            JointKind::Prismatic => Isometry2::translation(values[joint], 0.0),
+        };
+        outer[joint] = frame;
+        if let Some(link) = leg.links.get(joint) {
+            frame *= rigid_motion(link);
+        }
+    }
+    [inner, outer]
+}
+
+fn rigid_motion(placement: &Placement) -> Isometry2<f64> {
+    let angle = placement.direction.y.atan2(placement.direction.x);
+    Isometry2::from_parts(Translation2::from(placement.at), UnitComplex::new(angle))
+}
+
+/// The base alone, where there is no mode to draw.
+fn base_scene(robot: &Manipulator) -> Scene {
+    let mut marks = Vec::new();
+    for (index, leg) in robot.legs.iter().enumerate() {
+        let (at, look) = (leg.base.at, Look { actuated: leg.actuated[0], violated: false });
+        match leg.joints[0] {
+            JointKind::Revolute => {
+                marks.extend([Mark::Ground { at, leg: index + 1 }, Mark::Pin { at, look }]);
+            }
+            JointKind::Prismatic => {
+                let along = leg.base.direction.normalize();
+                marks.extend([Mark::Rail { from: at, to: at, along, fixed: true }, Mark::Block { at, along, look }]);
+            }
+        }
+    }
+    Scene { marks, number: None, caption: "no assembly mode".to_owned(), pose: None }
+}
