@@ -19,14 +19,18 @@ pub mod solve;
 
 pub use certify::Verdict;
 pub use linkage::{
-    Assemblies, AssemblyMode, ComplexMode, Dyad, Offset, PinnedDyad, PinnedDyadError, Pose, Rejection, RejectionReason,
-    SelfMotion, Special, Status, ThetaPolynomial, Triad, TriadError,
+    Assemblies, AssemblyMode, ComplexMode, Dyad, DyadKind, GroupName, GroupNameError, Guide, Offset, PinnedDyad,
+    PinnedDyadError, Pose, Rejection, RejectionReason, SelfMotion, Special, Status, ThetaPolynomial, Triad, TriadError,
+    TwoLinkAssemblies, TwoLinkAssembly, TwoLinkError, TwoLinkGroup, TwoLinkSpecial, triad_degree,
 };
 pub use manipulator::{
     AssemblyModes, DescriptionError, FamilyError, JointKind, JointsError, JointsReason, Leg, LockError, LockedGroup,
-    Manipulator, ManipulatorMode, Placement, Remark, Violation, triad_degree,
+    Manipulator, ManipulatorMode, Placement, Remark, Violation,
 };
-pub use solve::{Account, Eliminant, EliminateError, Outcome, Plan, System, eliminate};
+pub use solve::{
+    Account, Eliminant, EliminateError, Outcome, Plan, RejectedRoot, RootRejection, Solution, Solutions, SolveError,
+    System, eliminate, lift, solve,
+};
 
 /// The README's code runs as a test.
 #[cfg(doctest)]
