@@ -373,22 +373,22 @@ fn principal(phi: f64) -> f64 {
     if phi <= -PI { PI } else { phi }
 }
 
+/// A number to sort modes by.
+type Key = fn(&AssemblyMode) -> f64;
+
 /// Sorts by phi, then x, then y, ties within [`SORTING_TIE`] counting as equal.
 fn sort_modes(modes: &mut [AssemblyMode], size: f64) {
-    let keys: [(fn(&AssemblyMode) -> f64, f64); 3] =
-        [(|m| m.pose.phi, SORTING_TIE), (|m| m.pose.x, SORTING_TIE * size), (|m| m.pose.y, SORTING_TIE * size)];
+    let length = SORTING_TIE * size;
+    let keys: [(Key, f64); 3] = [(|m| m.pose.phi, SORTING_TIE), (|m| m.pose.x, length), (|m| m.pose.y, length)];
     sort_by_keys(modes, &keys);
 }
 
 /// Sorts by the first key, and runs of near-equal values among themselves by the next.
-fn sort_by_keys(modes: &mut [AssemblyMode], keys: &[(fn(&AssemblyMode) -> f64, f64)]) {
+fn sort_by_keys(modes: &mut [AssemblyMode], keys: &[(Key, f64)]) {
     let Some(((key, tie), rest)) = keys.split_first() else { return };
     modes.sort_by(|p, q| key(p).total_cmp(&key(q)));
-    let mut start = 0;
-    while start < modes.len() {
-        let run = modes[start..].windows(2).take_while(|pair| key(&pair[1]) - key(&pair[0]) <= *tie).count() + 1;
-        sort_by_keys(&mut modes[start..start + run], rest);
-        start += run;
+    for run in modes.chunk_by_mut(|p, q| key(q) - key(p) <= *tie) {
+        sort_by_keys(run, rest);
     }
 }
 
