@@ -2,7 +2,7 @@
 
 use assur::nalgebra::Vector2;
 use assur::num_complex::Complex64;
-use assur::{Assemblies, Dyad, Offset, Pose};
+use assur::{Dyad, Offset, Pose};
 
 fn complex(p: &Vector2<f64>) -> Complex64 {
     Complex64::new(p.x, p.y)
@@ -35,7 +35,9 @@ pub fn real_error(legs: &[Dyad], pose: &Pose, size: f64) -> f64 {
 }
 
 /// The largest closure error of the legs at a complex solution, over the size of what the equation adds up.
-pub fn complex_error(legs: &[Dyad], theta: Complex64, z: Complex64, w: Complex64) -> f64 {
+///
+/// `extent` is the triad's size: on an isotropic line of a leg of length zero one factor vanishes and nothing is left to compare with.
+pub fn complex_error(legs: &[Dyad], extent: f64, theta: Complex64, z: Complex64, w: Complex64) -> f64 {
     let over = |value: Complex64, size: f64| if size > 0.0 { value.norm() / size } else { value.norm() };
     let errors = legs.iter().map(|leg| match leg {
         Dyad::RR { a, b, length } => {
@@ -43,7 +45,7 @@ pub fn complex_error(legs: &[Dyad], theta: Complex64, z: Complex64, w: Complex64
             let p = z + theta * b - a;
             let q = w + b.conj() / theta - a.conj();
             let size = (z.norm() + (theta * b).norm() + a.norm()) * (w.norm() + (b / theta).norm() + a.norm());
-            over(p * q - length * length, size + length * length)
+            over(p * q - length * length, size + extent * extent)
         }
         Dyad::PR { a, u, b } => {
             let (a, b, n) = (complex(a), complex(b), Complex64::I * complex(u));
@@ -71,6 +73,7 @@ pub fn determinant(legs: &[Dyad; 3], pose: &Pose, size: f64) -> f64 {
     let (sin, cos) = pose.phi.sin_cos();
     let turned = |p: &Vector2<f64>| Vector2::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y);
     let at = Vector2::new(pose.x, pose.y);
+    let size = if size > 0.0 { size } else { 1.0 };
     // Moments about the platform's origin.
     let rows = legs.map(|leg| {
         let (force, arm) = match leg {
@@ -86,14 +89,4 @@ pub fn determinant(legs: &[Dyad; 3], pose: &Pose, size: f64) -> f64 {
     });
     let [a, b, c] = rows;
     a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
-}
-
-/// The worst errors of an answer: of its real modes over its size, and of its complex ones.
-pub fn worst_errors(legs: &[Dyad], answer: &Assemblies) -> [f64; 2] {
-    let real = answer.modes.iter().map(|mode| {
-        let size = answer.size.max(mode.pose.x.hypot(mode.pose.y)).max(f64::MIN_POSITIVE);
-        real_error(legs, &mode.pose, size) / size
-    });
-    let complex = answer.complex.iter().map(|mode| complex_error(legs, mode.theta, mode.z, mode.w));
-    [real.fold(0.0, f64::max), complex.fold(0.0, f64::max)]
 }
