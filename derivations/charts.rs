@@ -48,8 +48,9 @@ pub fn document() -> String {
 fn both_charts_are_charts(page: &mut Page) {
     page.step(
         "Both charts lie on the circle",
-        "c = (theta^2 + 1)/(2 theta), s = (theta^2 - 1)/(2 i theta) and c = (1-t^2)/(1+t^2),
-s = 2t/(1+t^2) fulfil c^2 + s^2 = 1, and one leads to the other: theta = (1+it)/(1-it).",
+        "Both fulfil c^2 + s^2 = 1, and theta = (1+it)/(1-it) leads from one to the other:
+    c = (theta^2 + 1)/(2 theta)    s = (theta^2 - 1)/(2 i theta)
+    c = (1 - t^2)/(1 + t^2)        s = 2t/(1 + t^2)",
     );
     let theta = UPoly::<Complex>::variable();
     let square = theta.power(2);

@@ -158,7 +158,8 @@ fn cores_are_irreducible(page: &mut Page) {
         "A factor over the rationals would have, modulo every prime that keeps the core's degree and leaves it
 without multiple factor, a degree that is a sum of factor degrees modulo that prime. The primes listed
 leave no such sum but 0 and 2K, so the core at the random legs of step 3 is irreducible. Then so is the
-core with symbols for the numbers: a factorisation there would carry over to the random legs. A
+core with symbols for the numbers: its degree does not drop at the random legs, so a factorisation into
+parts that both hold t would carry over. A
 polynomial over the rationals with one assembly's t for a root has all 2K.",
     );
     let mut dice = Dice::new(12);

@@ -23,7 +23,7 @@ impl Dice {
 
     /// A rotation as a Pythagorean triple: `(p + iq)^2` and its modulus `p^2 + q^2`.
     pub fn turn(&mut self) -> (Gaussian<Integer>, Integer) {
-        let (p, q) = (self.integer(9), self.integer(9));
+        let (p, q) = (self.integer(1_000_000), self.integer(1_000_000));
         if p == 0 && q == 0 {
             return self.turn();
         }

@@ -61,7 +61,7 @@ Symbols.  T_0 .. T_3    placements base, links[0], links[1], platform, as motion
           underscores   stand around the held joint: R_P_R
           g.h, '        dot product of plane vectors; conjugate
 
-Source.   Worked out here; the seven chains are those of Merlet, Parallel Robots (2006), chapter 2.";
+Source.   Worked out here; the seven chains are those of Merlet, Parallel Robots, 2nd ed. (2006).";
 
 /// The document, checked line by line while it is made.
 pub fn document() -> String {
@@ -113,8 +113,9 @@ dyads, in the terms of linkage::Dyad:
     RP    a = n            v = chi          b = f       d = -Im(mu' m)
     PP    phi = the angle of nu mu chi'
 Each equation is checked exactly at planted joint values: placements with rational numbers and rational
-rotations, the pose from the closure. A rational identity of degree 20 or less in the numbers drawn
-(p, q from -9 .. 9 for rotations, -30 .. 30 for points) could survive one draw by accident, not 50.",
+rotations (p + iq)^2/(p^2 + q^2), the pose from the closure. Cleared of denominators, the equations have
+total degree 60 at most in the numbers drawn from -10^6 .. 10^6: a false one would pass one draw with
+probability at most 60/(2 10^6 + 1) (Schwartz, Zippel), and all 50 with less than 10^-200.",
     );
     let mut dice = Dice::new(22);
     for dyad in ["RR", "PR", "RP", "PP"] {
@@ -319,7 +320,7 @@ fn others(held: usize) -> [usize; 2] {
 }
 
 fn random_motion(dice: &mut Dice) -> Motion {
-    let mut number = || Rational::from(dice.integer(30)) / Rational::from(7);
+    let mut number = || Rational::from(dice.integer(1_000_000)) / Rational::from(7);
     let at = Point::new(number(), number());
     Motion { at, turn: random_turn(dice) }
 }

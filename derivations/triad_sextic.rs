@@ -33,8 +33,7 @@ Symbols.  a_i, b_i      base pivot and platform pivot of leg i, complex numbers;
 
 Source.   Gosselin, Sefrioui, Richard 1992, for the degree and the elimination; the normalised form
           and the factors are worked out here. alpha2, alpha3, beta2, beta3 (two symbols each) and
-          l1, l2, l3 are eleven independent symbols: what is checked holds for
-          every triad.";
+          l1, l2, l3 are eleven independent symbols: what is checked holds for every triad.";
 
 /// The document, checked line by line while it is made.
 pub fn document() -> String {
@@ -76,7 +75,9 @@ fn rows_become_t(page: &mut Page, legs: &[LegNumbers<Symbolic>; 3], rows: &[Row<
     page.step(
         "Two rows and a circle",
         "In the plane D u = i (g2 (g3.u) - g3 (g2.u)) for any u; on both rows this is D u = i G. Its square
-with u.u = l1^2 is T = 0. Where D is not zero, u = i G / D: one assembly above each root.",
+with u.u = l1^2 is T = 0. Where D is not zero, u = i G / D: one assembly above each root. Where D = 0
+as well, G = 0 on the unit circle: both rows are one line, which meets the circle in two assemblies of one
+orientation.",
     );
     let [g2, g3, u] = [0, 2, 4].map(|v| Gaussian::new(symbol(v), symbol(v + 1)));
     page.equal(
@@ -141,7 +142,7 @@ the product of the two ends of G.",
 fn the_chain_of_resultants(page: &mut Page) {
     page.step(
         "What three resultants do to two rows and a circle",
-        "With general rows A_i u + B_i v + C_i and the circle f1 = u v - L, in nine symbols:
+        "With general rows A_i u + B_i v + C_i and the circle f1 = u v - L, in seven symbols:
     R1  = Res_u(row 2, row 3) = P v + Q,   P = A2 B3 - A3 B2,   Q = A2 C3 - A3 C2
     R2  = Res_u(f1, row 2)    = B2 v^2 + C2 v + L A2
     Res = Res_v(R1, R2)       = B2 Q^2 - C2 P Q + L A2 P^2.
@@ -173,8 +174,8 @@ fn rows_of_the_constraints(page: &mut Page, legs: &[LegNumbers<Symbolic>; 3], ro
     page.step(
         "The rows of this triad",
         "With u.u = u v the closures, cleared of 1/theta, are f_i = (u + theta beta - alpha)(theta v + beta'
-- theta alpha') - theta l^2, and row i is f_i - theta f1. It is theta times the row of step 1, because
-2 g.u = g' u + g v:   A_i = theta k_i',   B_i = theta k_i,   C_i = theta e_i.",
+- theta alpha') - theta l^2, and row i is f_i - theta f1. It is theta times the row of step 1, because 2 g.u = g' u + g v:
+    A_i = theta k_i',   B_i = theta k_i,   C_i = theta e_i.",
     );
     let system = constraint_system(legs, &[], [1, 2, 3]);
     let theta = Poly::<Complex>::variable(2);
