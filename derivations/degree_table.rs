@@ -295,7 +295,7 @@ fn inverted_leg(leg: &LegNumbers<Symbolic>, i: usize) -> LegNumbers<Symbolic> {
     }
 }
 
-fn inverse<'a>(dyads: [&'a str; 3]) -> [&'a str; 3] {
+fn inverse(dyads: [&str; 3]) -> [&str; 3] {
     dyads.map(|dyad| match dyad {
         "PR" => "RP",
         "RP" => "PR",
@@ -504,6 +504,6 @@ mod tests {
         assert_eq!(factor_degrees(&p(&[1, 0, 1]), 5), Some(vec![1, 1]));
         assert_eq!(factor_degrees(&p(&[0, 0, 1, 1]), 5), None);
         let product = p(&[1, 0, 1]) * p(&[-3, 0, 0, 1]);
-        assert_eq!(possible_factor_degrees(&product).1.contains(&2), true);
+        assert!(possible_factor_degrees(&product).1.contains(&2));
     }
 }
