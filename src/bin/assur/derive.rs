@@ -2,8 +2,57 @@
 
 use std::fmt::Write;
 
-/// The derivations: name, what it shows, its text worked through.
-const DERIVATIONS: &[(&str, &str, fn() -> String)] = &[];
+/// A derivation that can be printed.
+struct Derivation {
+    name: &'static str,
+    /// What it shows, in one line.
+    claim: &'static str,
+    /// Its text, worked through.
+    document: fn() -> String,
+}
+
+#[path = "../../../derivations/charts.rs"]
+mod charts;
+#[path = "../../../derivations/degree_table.rs"]
+mod degree_table;
+#[path = "../../../derivations/leg_reductions.rs"]
+mod leg_reductions;
+#[path = "../../../derivations/rp_rp_rp_octic.rs"]
+mod rp_rp_rp_octic;
+#[path = "../../../derivations/triad_sextic.rs"]
+mod triad_sextic;
+
+/// Every derivation is a program of its own as well; here only its text is used.
+const _: [fn(); 5] = [charts::main, degree_table::main, leg_reductions::main, rp_rp_rp_octic::main, triad_sextic::main];
+
+/// The derivations, in reading order.
+const DERIVATIONS: &[Derivation] = &[
+    Derivation {
+        name: "charts",
+        claim: "the circle of orientations in theta and in the half-angle, and why a half-turn is ordinary",
+        document: charts::document,
+    },
+    Derivation {
+        name: "triad_sextic",
+        claim: "the sextic of RR-RR-RR: closed form and Sylvester route are the same",
+        document: triad_sextic::document,
+    },
+    Derivation {
+        name: "degree_table",
+        claim: "how many assemblies each of the twenty triads has",
+        document: degree_table::document,
+    },
+    Derivation {
+        name: "rp_rp_rp_octic",
+        claim: "the octic of RP-RP-RP is a quartic, and half of that is a mirror image",
+        document: rp_rp_rp_octic::document,
+    },
+    Derivation {
+        name: "leg_reductions",
+        claim: "the 21 leg types and the dyads they leave when their driver is held",
+        document: leg_reductions::document,
+    },
+];
 
 /// No derivation of this name.
 #[derive(Debug, thiserror::Error)]
@@ -12,14 +61,14 @@ pub(crate) struct UnknownDerivation(String);
 
 /// The text of a derivation.
 pub(crate) fn document(name: &str) -> Result<String, UnknownDerivation> {
-    let found = DERIVATIONS.iter().find(|(known, _, _)| *known == name);
-    found.map(|(_, _, document)| document()).ok_or_else(|| UnknownDerivation(name.to_owned()))
+    let found = DERIVATIONS.iter().find(|derivation| derivation.name == name);
+    found.map(|derivation| (derivation.document)()).ok_or_else(|| UnknownDerivation(name.to_owned()))
 }
 
 /// The names, one a line, with what each shows.
 pub(crate) fn list() -> String {
     let mut text = String::new();
-    for (name, claim, _) in DERIVATIONS {
+    for Derivation { name, claim, .. } in DERIVATIONS {
         // Writing to a String cannot fail.
         let _ = writeln!(text, "{name:<20} {claim}");
     }
