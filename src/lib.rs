@@ -19,8 +19,9 @@ pub mod solve;
 
 pub use certify::Verdict;
 pub use linkage::{
-    Assemblies, AssemblyMode, ComplexMode, Dyad, Offset, PinnedDyad, PinnedDyadError, Pose, Rejection, RejectionReason,
-    SelfMotion, Special, Status, ThetaPolynomial, Triad, TriadError,
+    Assemblies, AssemblyMode, Certificate, Claim, ComplexMode, Dyad, Judgement, NearMiss, Offset, PinnedDyad,
+    PinnedDyadError, Pose, ProofRoute, ProvedMode, ProvedModes, Rejection, RejectionReason, SelfMotion, Special,
+    Status, ThetaPolynomial, Triad, TriadError,
 };
 pub use manipulator::{
     AssemblyModes, DescriptionError, FamilyError, JointKind, JointsError, JointsReason, Leg, LockError, LockedGroup,

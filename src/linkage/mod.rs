@@ -4,12 +4,17 @@
 
 mod assemble;
 mod assemblies;
+mod certificate;
+mod exact_box;
 mod fibre;
 mod given_orientation;
 mod group;
+mod judge;
+mod loop_box;
 mod numbers;
 mod pinned;
 mod place;
+mod prove;
 mod special;
 mod triad;
 mod vanishing;
@@ -18,6 +23,10 @@ mod verify;
 pub use assemblies::{
     Assemblies, AssemblyMode, ComplexMode, Rejection, RejectionReason, SelfMotion, Special, Status, ThetaPolynomial,
 };
+pub use certificate::Certificate;
 pub use group::{Dyad, Offset, Pose, Triad, TriadError};
+pub use judge::{Claim, Judgement};
 pub use pinned::{PinnedDyad, PinnedDyadError};
+pub use prove::{ProofRoute, ProvedMode, ProvedModes};
+pub use special::NearMiss;
 pub use triad::{LegNumbers, Row, Rows, consistency, leg_row, triad_rows};
