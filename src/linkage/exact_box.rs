@@ -22,8 +22,9 @@ pub(super) struct Boxed {
 /// Bits of the first attempt.
 const FIRST: usize = 192;
 
-/// A coordinate wider than this, relative to the group's size, calls for more bits.
-const WANTED: f64 = 1e-15;
+/// A coordinate wider than this, relative to the group's size, calls for more bits. Rounding numerator, denominator and quotient to `f64` alone makes
+/// six units in the last place, 1.4e-15.
+const WANTED: f64 = 4e-15;
 
 /// The rotation as integers over a common denominator: `(c, s) = (cosine, sine) / unit`.
 pub(super) struct ScaledRotation {
