@@ -1,7 +1,7 @@
 //! In which ways can a triad be put together? All of them, with an account.
 //!
 //! 1. The triad's numbers become integers ([`super::numbers`]).
-//! 2. `T` is expanded exactly; its order against the family's tells how many roots ran to infinity.
+//! 2. `T` is eliminated exactly, by Sylvester resultants ([`super::constraint`]); its order against the family's tells how many roots ran to infinity.
 //! 3. `T` is split into square-free parts by multiplicity and by what lies above their roots ([`super::fibre`]): exactly.
 //! 4. Roots are located to 160 bits or more; those that are real are counted exactly ([`crate::roots`]).
 //! 5. Each root is lifted to the poses above it ([`super::place`]), and each pose is measured on the geometry
@@ -18,6 +18,7 @@ use num_complex::Complex64;
 use super::assemblies::{
     Assemblies, AssemblyMode, ComplexMode, Rejection, SelfMotion, Special, Status, ThetaPolynomial,
 };
+use super::constraint::reference_consistency;
 use super::fibre::{Fibre, Part, parts, parts_alike};
 use super::given_orientation::{Given, assemble_two, exact_rotation, same_orientation};
 use super::group::{Dyad, Pose, Triad};
@@ -25,7 +26,7 @@ use super::numbers::{LocalLegs, TriadNumbers};
 use super::pinned::PinnedDyad;
 use super::place::{Placed, Solution, place, place_pinned};
 use super::special::{near_misses, special_shapes};
-use super::triad::{LegNumbers, leg_row, rows_consistency, triad_rows};
+use super::triad::{LegNumbers, leg_row, triad_rows};
 use super::vanishing::motions;
 use super::verify::{Placement, complex_residual, determinant, pinned_determinant, residual, size};
 use crate::algebra::{Gaussian, Integer, Ring, Trig};
@@ -154,7 +155,7 @@ impl<'a> Gathering<'a> {
     fn turning_platform(&mut self, legs: &[LegNumbers<Integer>; 3], order: usize, exponent: i64) {
         let symbols = legs.each_ref().map(|leg| leg.map(|x| Trig::constant(x.clone())));
         let rows = triad_rows(&symbols, &Trig::cosine(), &Trig::sine());
-        let t = rows_consistency(&rows);
+        let t = reference_consistency(legs, order);
         self.out.polynomial = Some(shown(&t, order));
         if t.vanishes() {
             self.out.account.degree = 0;
@@ -375,22 +376,22 @@ fn principal(phi: f64) -> f64 {
     if phi <= -PI { PI } else { phi }
 }
 
+/// A number to sort modes by.
+type Key = fn(&AssemblyMode) -> f64;
+
 /// Sorts by phi, then x, then y, ties within [`SORTING_TIE`] counting as equal.
 fn sort_modes(modes: &mut [AssemblyMode], size: f64) {
-    let keys: [(fn(&AssemblyMode) -> f64, f64); 3] =
-        [(|m| m.pose.phi, SORTING_TIE), (|m| m.pose.x, SORTING_TIE * size), (|m| m.pose.y, SORTING_TIE * size)];
+    let length = SORTING_TIE * size;
+    let keys: [(Key, f64); 3] = [(|m| m.pose.phi, SORTING_TIE), (|m| m.pose.x, length), (|m| m.pose.y, length)];
     sort_by_keys(modes, &keys);
 }
 
 /// Sorts by the first key, and runs of near-equal values among themselves by the next.
-fn sort_by_keys(modes: &mut [AssemblyMode], keys: &[(fn(&AssemblyMode) -> f64, f64)]) {
+fn sort_by_keys(modes: &mut [AssemblyMode], keys: &[(Key, f64)]) {
     let Some(((key, tie), rest)) = keys.split_first() else { return };
     modes.sort_by(|p, q| key(p).total_cmp(&key(q)));
-    let mut start = 0;
-    while start < modes.len() {
-        let run = modes[start..].windows(2).take_while(|pair| key(&pair[1]) - key(&pair[0]) <= *tie).count() + 1;
-        sort_by_keys(&mut modes[start..start + run], rest);
-        start += run;
+    for run in modes.chunk_by_mut(|p, q| key(q) - key(p) <= *tie) {
+        sort_by_keys(run, rest);
     }
 }
 

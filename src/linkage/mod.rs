@@ -1,20 +1,25 @@
 //! Planar Assur groups: what is left of a mechanism when its drivers are held.
 //!
-//! A [`Triad`] is a platform on three [`Dyad`]s; [`Triad::assemble`] finds every way to put it together.
+//! A [`Triad`] is a platform on three [`Dyad`]s; [`Triad::assemble`] finds every way to put it together. A [`TwoLinkGroup`] is one of
+//! the five groups of class II.
 
 mod assemble;
 mod assemblies;
 mod certificate;
+mod constraint;
+mod dyad;
 mod exact_box;
 mod fibre;
 mod given_orientation;
 mod group;
 mod judge;
 mod loop_box;
+mod name;
 mod numbers;
 mod pinned;
 mod place;
 mod prove;
+mod slider_quadrics;
 mod special;
 mod triad;
 mod vanishing;
@@ -24,9 +29,13 @@ pub use assemblies::{
     Assemblies, AssemblyMode, ComplexMode, Rejection, RejectionReason, SelfMotion, Special, Status, ThetaPolynomial,
 };
 pub use certificate::Certificate;
-pub use group::{Dyad, Offset, Pose, Triad, TriadError};
+pub use constraint::{RotationNumbers, constraint_system, sylvester_plan};
+pub use dyad::{Guide, TwoLinkAssemblies, TwoLinkAssembly, TwoLinkError, TwoLinkGroup, TwoLinkSpecial};
+pub use group::{Dyad, Offset, Pose, Triad, TriadError, triad_degree};
 pub use judge::{Claim, Judgement};
+pub use name::{DyadKind, GroupName, GroupNameError};
 pub use pinned::{PinnedDyad, PinnedDyadError};
 pub use prove::{ProofRoute, ProvedMode, ProvedModes};
+pub use slider_quadrics::{SliderPose, SliderQuadricsError, SliderSolutions, rp_rp_rp_quartic};
 pub use special::NearMiss;
 pub use triad::{LegNumbers, Row, Rows, consistency, leg_row, triad_rows};

@@ -14,4 +14,4 @@ pub use catalogue::FamilyError;
 pub use describe::{DescriptionError, JointKind, JointsError, JointsReason, Leg, Manipulator, Placement};
 pub use forward::{AssemblyModes, ManipulatorMode, Violation};
 pub use lock::{LockError, LockedGroup};
-pub use mobility::{Remark, triad_degree};
+pub use mobility::Remark;

@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 use svg::Document;
 use svg::node::element::{ClipPath, Definitions, Group, Rectangle, Text};
 
-use super::scene::{Look, Mark, Scene, number};
+use super::scene::{Look, Mark, Scene, length};
 use super::symbols::{self, Canvas, INK, PAPER, QUIET};
 
 /// Width of a panel, and bounds of its height, in pixels.
@@ -18,6 +18,10 @@ const CAPTION: f64 = 30.0;
 const GAP: f64 = 16.0;
 const HEADER: f64 = 62.0;
 const LEGEND: f64 = 44.0;
+/// Width that a letter of the legend takes on average.
+const LETTER: f64 = 5.8;
+/// Part of the window by which a point may lie beyond it and still count as inside: rounding, not reach.
+const EDGE: f64 = 0.01;
 /// A mode that reaches this many times as far as the middle one is cut off rather than shrink all others.
 const OUTLIER: f64 = 6.0;
 
@@ -39,7 +43,8 @@ impl Window {
     }
 
     fn contains(&self, p: Vector2<f64>) -> bool {
-        (0..2).all(|axis| self.low[axis] <= p[axis] && p[axis] <= self.high[axis])
+        let edge = EDGE * self.size().max();
+        (0..2).all(|axis| self.low[axis] - edge <= p[axis] && p[axis] <= self.high[axis] + edge)
     }
 
     /// The window of the scenes that are not absurdly far from the others.
@@ -117,7 +122,7 @@ fn draw_panel(panel: Group, scene: &Scene, window: &Window, canvas: &Canvas, hei
     panel = panel.add(text(&scene.caption, left, height + 18.0, 12.5));
     match scene.pose {
         Some(pose) if !window.contains(Vector2::new(pose.x, pose.y)) => {
-            let note = format!("reaches outside: platform at ({}, {})", number(pose.x), number(pose.y));
+            let note = format!("reaches outside: platform at ({}, {})", length(pose.x), length(pose.y));
             panel.add(text(&note, 8.0, 18.0, 11.0).set("fill", symbols::ALARM))
         }
         _ => panel,
@@ -149,16 +154,18 @@ fn legend(y: f64, width: f64, scale: f64, scenes: &[Scene]) -> Group {
         entries.push((pin(Look { actuated: false, violated: true }), "outside its limits"));
     }
     let mut group = Group::new().set("transform", format!("translate({GAP} {y:.1})"));
-    let mut x = 16.0;
+    let mut x = 4.0;
     for (mark, label) in entries {
+        let half = match mark {
+            Mark::Telescope { .. } => 18.0,
+            Mark::Block { .. } => 11.0,
+            _ => 8.0,
+        };
         let symbol = symbols::draw(&mark, &canvas);
-        group = group.add(Group::new().set("transform", format!("translate({x:.1} 0)")).add(symbol)).add(text(
-            label,
-            x + 20.0,
-            4.0,
-            11.5,
-        ));
-        x += 48.0 + 6.2 * label.len() as f64;
+        group = group
+            .add(Group::new().set("transform", format!("translate({:.1} 0)", x + half)).add(symbol))
+            .add(text(label, x + 2.0 * half + 4.0, 4.0, 11.0));
+        x += 2.0 * half + 18.0 + LETTER * label.len() as f64;
     }
     group.add(scale_bar(width - 3.0 * GAP, scale))
 }
@@ -167,10 +174,10 @@ fn legend(y: f64, width: f64, scale: f64, scenes: &[Scene]) -> Group {
 fn scale_bar(right: f64, scale: f64) -> Group {
     let wanted = PANEL_WIDTH / 4.0 / scale;
     let decade = 10_f64.powf(wanted.log10().floor());
-    let length =
-        [5.0, 2.0, 1.0].map(|step| step * decade).into_iter().find(|&length| length <= wanted).unwrap_or(decade);
-    let pixels = length * scale;
-    let label = text(&number(length), right - pixels / 2.0, -6.0, 11.5).set("text-anchor", "middle");
+    let steps = [5.0, 2.0, 1.0].map(|step| step * decade);
+    let round = steps.into_iter().find(|step| *step <= wanted).unwrap_or(decade);
+    let pixels = round * scale;
+    let label = text(&length(round), right - pixels / 2.0, -6.0, 11.5).set("text-anchor", "middle");
     Group::new().add(symbols::scale_bar(right - pixels, right)).add(label)
 }
 
