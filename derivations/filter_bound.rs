@@ -10,7 +10,7 @@ use assur::{Dyad, ProofRoute, Triad};
 
 type P = Poly<Rational>;
 
-fn main() {
+pub fn main() {
     print!("{}", document());
 }
 
@@ -84,7 +84,11 @@ impl Random {
         let mut leg = |near: bool| {
             let (alpha, beta) = (point(), point());
             let length = point().re.abs();
-            if near { LegNumbers::Circle { alpha: zero.clone(), beta: zero.clone(), length } } else { LegNumbers::Circle { alpha, beta, length } }
+            if near {
+                LegNumbers::Circle { alpha: zero.clone(), beta: zero.clone(), length }
+            } else {
+                LegNumbers::Circle { alpha, beta, length }
+            }
         };
         [leg(true), leg(false), leg(false)]
     }
@@ -126,7 +130,9 @@ fn bound() -> String {
         let (c, s) = (Trig::cosine(), Trig::sine());
         let even = integer(0) + c.clone() * (integer(1) + c.clone() * (integer(2) + c.clone() * integer(3)));
         let t = even + s * (integer(4) + c.clone() * (integer(5) + c * integer(6)));
-        if let (Some(counted), Some(tau)) = (counted, (0..9).find(|&tau| t.half_angle_about(3, tau).degree() == Some(6))) {
+        if let (Some(counted), Some(tau)) =
+            (counted, (0..9).find(|&tau| t.half_angle_about(3, tau).degree() == Some(6)))
+        {
             let parts = t.half_angle_about(3, tau).square_free();
             let exact: usize = parts.iter().map(|(p, _)| isolate_real_roots(p).len()).sum();
             assert_eq!(counted.directions().len(), exact);
@@ -186,7 +192,9 @@ fn share() -> String {
         }
     }
     assert!(100 * decided >= 99 * count, "{decided} of {count}");
-    format!("Step 6. Of {count} random RR-RR-RR triads the filter decides {decided}, each as exact arithmetic does; the rest goes to integers.")
+    format!(
+        "Step 6. Of {count} random RR-RR-RR triads the filter decides {decided}, each as exact arithmetic does; the rest goes to integers."
+    )
 }
 
 #[cfg(test)]

@@ -49,8 +49,26 @@ fn for_a_while(target: &str, mut case: impl FnMut(&mut Random)) {
 }
 
 const HARD: [f64; 20] = [
-    0.0, -0.0, 1.0, -1.0, 0.5, 3.0, 0.1, 1e-16, 5e-324, -5e-324, 1e-308, 2.2250738585072014e-308, 1e300, -1e300, 1e150, 1e-150, 1e15, -7.0,
-    1.0000000000000002, 0.9999999999999999,
+    0.0,
+    -0.0,
+    1.0,
+    -1.0,
+    0.5,
+    3.0,
+    0.1,
+    1e-16,
+    5e-324,
+    -5e-324,
+    1e-308,
+    2.2250738585072014e-308,
+    1e300,
+    -1e300,
+    1e150,
+    1e-150,
+    1e15,
+    -7.0,
+    1.0000000000000002,
+    0.9999999999999999,
 ];
 
 /// An adversarial number: hard, near an earlier one, or ordinary.
@@ -104,7 +122,10 @@ fn triads_with_adversarial_numbers_are_answered_and_proofs_agree() {
         let certificate = answer.certificate.expect("asked for");
         if certificate.complete {
             assert_eq!(answer.modes.len(), exact.modes.len(), "{triad:?}");
-            assert!(answer.modes.iter().all(|mode| mode.proof == Verdict::Proven && mode.pose_box.is_some()), "{triad:?}");
+            assert!(
+                answer.modes.iter().all(|mode| mode.proof == Verdict::Proven && mode.pose_box.is_some()),
+                "{triad:?}"
+            );
         }
     });
 }
@@ -132,7 +153,11 @@ fn chains_of_interval_operations_hold_the_exact_result() {
             }
             let below = interval.lo() == f64::NEG_INFINITY || exact(interval.lo()) <= value;
             let above = interval.hi() == f64::INFINITY || value <= exact(interval.hi());
-            assert!(below && above && interval.lo() <= interval.hi(), "{interval:?} {}", Rational::to_f64(&value).value());
+            assert!(
+                below && above && interval.lo() <= interval.hi(),
+                "{interval:?} {}",
+                Rational::to_f64(&value).value()
+            );
         }
     });
 }
@@ -141,8 +166,34 @@ fn chains_of_interval_operations_hold_the_exact_result() {
 #[test]
 fn damaged_model_files_are_refused_or_answered() {
     use assur::exchange::{ClaimedPoses, ModelFile};
-    let sources = [include_str!("../examples/3-rpr.toml"), include_str!("../examples/mixed.toml"), include_str!("../examples/3-rrr.toml")];
-    let pieces = ["nan", "inf", "1e999", "-1e300", "5e-324", "[", "]", "{", "}", "=", "\"", "_", "R_P_R", "RRR", "PPP", "leg", "0", "-", "\n", "deg", "\u{1F980}"];
+    let sources = [
+        include_str!("../examples/3-rpr.toml"),
+        include_str!("../examples/mixed.toml"),
+        include_str!("../examples/3-rrr.toml"),
+    ];
+    let pieces = [
+        "nan",
+        "inf",
+        "1e999",
+        "-1e300",
+        "5e-324",
+        "[",
+        "]",
+        "{",
+        "}",
+        "=",
+        "\"",
+        "_",
+        "R_P_R",
+        "RRR",
+        "PPP",
+        "leg",
+        "0",
+        "-",
+        "\n",
+        "deg",
+        "\u{1F980}",
+    ];
     for_a_while("model files", |random| {
         let mut text: Vec<char> = sources[random.below(sources.len())].chars().collect();
         for _ in 0..1 + random.below(4) {

@@ -115,7 +115,10 @@ fn points(leg: &Dyad) -> (Complex64, Complex64) {
 struct Gathering<'a> {
     /// Whether the reference point is a pin.
     pinned: bool,
+    /// `legs`, the reference leg first.
     legs: &'a [LegNumbers<f64>],
+    /// 1, or -1 where that order is an odd permutation of the one given.
+    parity: f64,
     /// Lengths of `legs` are in units of `2^unit`.
     unit: i64,
     size: f64,
@@ -129,6 +132,7 @@ impl<'a> Gathering<'a> {
         let (a0, b0) = numbers.order.first().map_or_else(Default::default, |&i| points(&legs[i]));
         Self {
             pinned: false,
+            parity: parity(legs, &numbers.order),
             size: size(&local.legs),
             legs: &local.legs,
             unit: local.unit,
@@ -315,7 +319,13 @@ impl<'a> Gathering<'a> {
         // The pose's own rounded angle turns the reference point, so that the rounding of phi does not swing the platform about a
         // far origin.
         let origin = self.a0 + self.length(solution.u[0]) - Complex64::from_polar(1.0, phi) * self.b0;
-        let det_a = if self.pinned { pinned_determinant(self.legs, at) } else { determinant(self.legs, at) } / scale;
+        // A PP leg restrains the rotation by a pure moment: then no length is left in the determinant.
+        let (det_a, without_pp) = if self.pinned {
+            (pinned_determinant(self.legs, at), self.legs.len() == 2)
+        } else {
+            (self.parity * determinant(self.legs, at), self.legs.len() == 3)
+        };
+        let det_a = if without_pp { det_a / scale } else { det_a };
         let sound = residual <= CLOSURE_GUARD && origin.is_finite();
         if sound {
             let pose = Pose::new(origin.re, origin.im, phi);
@@ -369,6 +379,14 @@ impl<'a> Gathering<'a> {
         assert!(out.account.adds_up(), "every root is booked once: {:?}", out.account);
         out
     }
+}
+
+/// The sign of the order in which legs are solved, PP legs last, against the order given.
+fn parity(legs: &[Dyad], order: &[usize]) -> f64 {
+    let last = (0..legs.len()).filter(|i| !order.contains(i));
+    let order: Vec<usize> = order.iter().copied().chain(last).collect();
+    let exchanges = (0..order.len()).map(|i| order[..i].iter().filter(|&&before| before > order[i]).count());
+    if exchanges.sum::<usize>() % 2 == 0 { 1.0 } else { -1.0 }
 }
 
 /// The angle with -pi written as pi.

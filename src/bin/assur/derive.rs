@@ -11,8 +11,62 @@ struct Derivation {
     document: fn() -> String,
 }
 
-/// The derivations.
-const DERIVATIONS: &[Derivation] = &[];
+#[path = "../../../derivations/charts.rs"]
+mod charts;
+#[path = "../../../derivations/degree_table.rs"]
+mod degree_table;
+#[path = "../../../derivations/filter_bound.rs"]
+mod filter_bound;
+#[path = "../../../derivations/leg_reductions.rs"]
+mod leg_reductions;
+#[path = "../../../derivations/rp_rp_rp_octic.rs"]
+mod rp_rp_rp_octic;
+#[path = "../../../derivations/triad_sextic.rs"]
+mod triad_sextic;
+
+/// Every derivation is a program of its own as well; here only its text is used.
+const _: [fn(); 6] = [
+    charts::main,
+    degree_table::main,
+    filter_bound::main,
+    leg_reductions::main,
+    rp_rp_rp_octic::main,
+    triad_sextic::main,
+];
+
+/// The derivations, in reading order.
+const DERIVATIONS: &[Derivation] = &[
+    Derivation {
+        name: "charts",
+        claim: "the circle of orientations in theta and in the half-angle, and why a half-turn is ordinary",
+        document: charts::document,
+    },
+    Derivation {
+        name: "triad_sextic",
+        claim: "the sextic of RR-RR-RR: closed form and Sylvester route are the same",
+        document: triad_sextic::document,
+    },
+    Derivation {
+        name: "degree_table",
+        claim: "how many assemblies each of the twenty triads has",
+        document: degree_table::document,
+    },
+    Derivation {
+        name: "rp_rp_rp_octic",
+        claim: "the octic of RP-RP-RP is a quartic, and half of that is a mirror image",
+        document: rp_rp_rp_octic::document,
+    },
+    Derivation {
+        name: "leg_reductions",
+        claim: "the 21 leg types and the dyads they leave when their driver is held",
+        document: leg_reductions::document,
+    },
+    Derivation {
+        name: "filter_bound",
+        claim: "when floating point may say how many assembly modes there are",
+        document: filter_bound::document,
+    },
+];
 
 /// No derivation of this name.
 #[derive(Debug, thiserror::Error)]
