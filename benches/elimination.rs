@@ -66,7 +66,7 @@ fn circle_and_two_rows() -> (System<Gaussian<Integer>>, Plan<Gaussian<Integer>>)
         on_z * z.clone() * t.clone() + on_w * w.clone() + random() + random() * t.clone() + random() * t.power(2)
     };
     let (first, second) = (row(), row());
-    let circle = t.clone() * (z * w - random());
+    let circle = t.clone() * (random() * z * w - random());
     let system = System::new(["z", "w", "theta"]).with("circle", circle).with("L2", first).with("L3", second);
     let plan = Plan::new("theta")
         .resultant_formal("R1", ("L2", 1), ("L3", 1), "z")
