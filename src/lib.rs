@@ -20,7 +20,7 @@
 //! # How
 //!
 //! [`Manipulator::lock`] holds the actuators and leaves an Assur group, mostly a [`Triad`]. [`Triad::constraints`] writes its
-//! closures as polynomials, [`eliminate`] takes them to one polynomial in `theta = e^(i phi)` by Sylvester resultants, over the
+//! closures as polynomials, [`fn@eliminate`] takes them to one polynomial in `theta = e^(i phi)` by Sylvester resultants, over the
 //! integers; [`roots`] counts its real roots exactly and locates all of them; each is lifted to the poses above it, and
 //! each pose is measured on the assembled geometry. Every root of the polynomial ends in one entry of the [`Account`].
 //! The generic layers ([`algebra`], [`mod@eliminate`], [`roots`], [`mod@solve`]) know no mechanism and solve any small polynomial system.
