@@ -20,6 +20,7 @@
 //! ```
 
 mod check;
+mod claims;
 mod error;
 mod model;
 mod reader;
@@ -29,7 +30,8 @@ mod triad_file;
 mod write;
 
 pub use check::{CheckReport, LegReport, RemarkReport};
+pub use claims::{ClaimReport, ClaimedPoses, MissingReport, Subject, VerifyReport};
 pub use error::{FieldProblem, FileError, Format};
 pub use model::{AngleUnit, ModelFile};
-pub use report::{ForwardReport, ModeReport};
+pub use report::{CertificateReport, ForwardReport, ModeReport};
 pub use triad_file::{DyadEntry, TriadFile, read_triad};

@@ -15,6 +15,8 @@ struct Derivation {
 mod charts;
 #[path = "../../../derivations/degree_table.rs"]
 mod degree_table;
+#[path = "../../../derivations/filter_bound.rs"]
+mod filter_bound;
 #[path = "../../../derivations/leg_reductions.rs"]
 mod leg_reductions;
 #[path = "../../../derivations/rp_rp_rp_octic.rs"]
@@ -23,7 +25,14 @@ mod rp_rp_rp_octic;
 mod triad_sextic;
 
 /// Every derivation is a program of its own as well; here only its text is used.
-const _: [fn(); 5] = [charts::main, degree_table::main, leg_reductions::main, rp_rp_rp_octic::main, triad_sextic::main];
+const _: [fn(); 6] = [
+    charts::main,
+    degree_table::main,
+    filter_bound::main,
+    leg_reductions::main,
+    rp_rp_rp_octic::main,
+    triad_sextic::main,
+];
 
 /// The derivations, in reading order.
 const DERIVATIONS: &[Derivation] = &[
@@ -51,6 +60,11 @@ const DERIVATIONS: &[Derivation] = &[
         name: "leg_reductions",
         claim: "the 21 leg types and the dyads they leave when their driver is held",
         document: leg_reductions::document,
+    },
+    Derivation {
+        name: "filter_bound",
+        claim: "when floating point may say how many assembly modes there are",
+        document: filter_bound::document,
     },
 ];
 
