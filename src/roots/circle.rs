@@ -189,11 +189,11 @@ impl Cell {
     fn halves(&self) -> (Self, Self) {
         let mut right = self.coefficients;
         let mut left = self.coefficients;
-        for (level, first) in left.iter_mut().enumerate().skip(1) {
+        for (level, end) in left.iter_mut().enumerate().skip(1) {
             for k in 0..=DEGREE - level {
                 right[k] = 0.5 * (right[k] + right[k + 1]);
             }
-            *first = right[0];
+            *end = right[0];
         }
         let half = Self { width: 0.5 * self.width, depth: self.depth + 1, ..*self };
         (Self { coefficients: left, ..half }, Self { coefficients: right, from: self.from + half.width, ..half })
