@@ -23,7 +23,9 @@ pub use linkage::{
     SelfMotion, Special, Status, ThetaPolynomial, Triad, TriadError,
 };
 pub use manipulator::{
-    AssemblyModes, DescriptionError, FamilyError, JointKind, JointsError, JointsReason, Leg, LockError, LockedGroup,
-    Manipulator, ManipulatorMode, Placement, Remark, Violation, triad_degree,
+    AssemblyModes, DescriptionError, FamilyError, InverseSpecial, JointKind, JointsError, JointsReason,
+    KinematicsError, Leg, LegLocus, LockError, LockedGroup, LocusError, Manipulator, ManipulatorMode, Placement,
+    PlaneCurve, Reading, Remark, SingularMatrix, Singularity, SingularityKind, SingularityLocus, Unreachable, Velocity,
+    Violation, WorkingMode, WorkingModes, triad_degree,
 };
 pub use solve::{Account, Eliminant, EliminateError, Outcome, Plan, System, eliminate};
