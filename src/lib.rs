@@ -1,6 +1,67 @@
+//! **In which ways can this planar mechanism be put together?** All of them, with an account that adds up.
+//!
+//! ```
+//! use assur::{Leg, Manipulator};
+//!
+//! let (sin, cos) = 0.8822f64.sin_cos();
+//! let robot = Manipulator::new("3-RPR", vec![
+//!     Leg::rpr([0.0, 0.0], [0.0, 0.0]),
+//!     Leg::rpr([15.91, 0.0], [17.045, 0.0]),
+//!     Leg::rpr([0.0, 10.0], [20.839 * cos, 20.839 * sin]),
+//! ])?;
+//! let answer = robot.forward(&[14.98, 15.38, 12.0])?;
+//! for mode in &answer.modes {
+//!     println!("{:?} closes to {:e}", mode.mode.pose, mode.mode.residual);
+//! }
+//! assert_eq!(answer.group.account.real, 6); // of degree 6: nothing missed, nothing invented
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # How
+//!
+//! [`Manipulator::lock`] holds the actuators and leaves an Assur group, mostly a [`Triad`]. [`Triad::constraints`] writes its
+//! closures as polynomials, [`eliminate`] takes them to one polynomial in `theta = e^(i phi)` by Sylvester resultants, over the
+//! integers; [`roots`] counts its real roots exactly and locates all of them; each is lifted to the poses above it, and
+//! each pose is measured on the assembled geometry. Every root of the polynomial ends in one entry of the [`Account`].
+//! The generic layers ([`algebra`], [`mod@eliminate`], [`roots`], [`mod@solve`]) know no mechanism and solve any small polynomial system.
+//!
+//! # Vocabulary
+//!
+//! | word | meaning |
+//! |---|---|
+//! | Assur group | links and joints that are left when the drivers are held, and that no part of can be taken away |
+//! | dyad | what is left of a locked leg: RR, PR, RP or PP, named by its passive joints, base first |
+//! | triad | a platform on three dyads; an Assur group of class III |
+//! | pose | position `x`, `y` and rotation `phi` of the platform frame in the base frame |
+//! | assembly mode | one way to put a group together: a pose with its joint values |
+//! | working mode | which of its ways each leg takes to a pose: `+-+` |
+//! | eliminant | the polynomial in one unknown that elimination leaves |
+//! | twin poses | two assembly modes with the same orientation |
+//! | self-motion | a whole curve of poses for the same inputs |
+//!
+//! # Features
+//!
+//! `cli` (default) is the command line; it brings `exchange` (model files and reports) and `plot` (drawings as SVG). The core builds
+//! with none of them.
+//!
+//! # Bibliography
+//!
+//! - Aberth 1973: O. Aberth, Iteration methods for finding all zeros of a polynomial simultaneously, Math. Comp. 27, 339-344.
+//! - Bareiss 1968: E. H. Bareiss, Sylvester's identity and multistep integer-preserving Gaussian elimination, Math. Comp. 22, 565-578.
+//! - Collins and Akritas 1976: G. E. Collins, A. G. Akritas, Polynomial real root isolation using Descartes' rule of signs,
+//!   SYMSAC '76, 272-275.
+//! - Fujiwara 1916: M. Fujiwara, Über die obere Schranke des absoluten Betrages der Wurzeln einer algebraischen Gleichung, Tohoku Math.
+//!   J. 10, 167-171.
+//! - von zur Gathen and Gerhard 2013: Modern Computer Algebra, 3rd edition, Cambridge University Press.
+//! - Gosselin, Sefrioui, Richard 1992: Solutions polynomiales au problème de la cinématique directe des manipulateurs parallèles plans à
+//!   trois degrés de liberté, Mech. Mach. Theory 27, 107-119.
+//! - Mitsi, Bouzakis, Mansour, Popescu: A method for forward displacement analysis of 3-RRP and 3-PRP planar parallel manipulators.
+//! - Parlett and Reinsch 1969: B. N. Parlett, C. Reinsch, Balancing a matrix for calculation of eigenvalues and eigenvectors,
+//!   Numer. Math. 13, 293-304.
+//! - Yun 1976: D. Y. Y. Yun, On square-free decomposition algorithms, SYMSAC '76, 26-35.
+
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
-//! In which ways can this planar mechanism be put together?
 
 pub use nalgebra;
 pub use num_complex;
@@ -19,13 +80,22 @@ pub mod solve;
 
 pub use certify::Verdict;
 pub use linkage::{
-    Assemblies, AssemblyMode, ComplexMode, Dyad, Offset, PinnedDyad, PinnedDyadError, Pose, Rejection, RejectionReason,
-    SelfMotion, Special, Status, ThetaPolynomial, Triad, TriadError,
+    Assemblies, AssemblyMode, ComplexMode, Dyad, DyadKind, GroupName, GroupNameError, Guide, Offset, PinnedDyad,
+    PinnedDyadError, Pose, Rejection, RejectionReason, SelfMotion, Special, Status, ThetaPolynomial, Triad, TriadError,
+    TwoLinkAssemblies, TwoLinkAssembly, TwoLinkError, TwoLinkGroup, TwoLinkSpecial, triad_degree,
 };
 pub use manipulator::{
     AssemblyModes, DescriptionError, FamilyError, InverseSpecial, JointKind, JointsError, JointsReason,
     KinematicsError, Leg, LegLocus, LockError, LockedGroup, LocusError, Manipulator, ManipulatorMode, Placement,
     PlaneCurve, Reading, Remark, SingularMatrix, Singularity, SingularityKind, SingularityLocus, Unreachable, Velocity,
-    Violation, WorkingMode, WorkingModes, triad_degree,
+    Violation, WorkingMode, WorkingModes,
 };
-pub use solve::{Account, Eliminant, EliminateError, Outcome, Plan, System, eliminate};
+pub use solve::{
+    Account, Eliminant, EliminateError, Outcome, Plan, RejectedRoot, RootRejection, Solution, Solutions, SolveError,
+    System, eliminate, lift, solve,
+};
+
+/// The README's code runs as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -19,6 +19,7 @@
 //! # }
 //! ```
 
+mod check;
 mod error;
 mod model;
 mod reader;
@@ -27,6 +28,7 @@ mod tree;
 mod triad_file;
 mod write;
 
+pub use check::{CheckReport, LegReport, RemarkReport};
 pub use error::{FieldProblem, FileError, Format};
 pub use model::{AngleUnit, ModelFile};
 pub use report::{ForwardReport, ModeReport};

@@ -1,7 +1,7 @@
 //! In which ways can a triad be put together? All of them, with an account.
 //!
 //! 1. The triad's numbers become integers ([`super::numbers`]).
-//! 2. `T` is expanded exactly; its order against the family's tells how many roots ran to infinity.
+//! 2. `T` is eliminated exactly, by Sylvester resultants ([`super::constraint`]); its order against the family's tells how many roots ran to infinity.
 //! 3. `T` is split into square-free parts by multiplicity and by what lies above their roots ([`super::fibre`]): exactly.
 //! 4. Roots are located to 160 bits or more; those that are real are counted exactly ([`crate::roots`]).
 //! 5. Each root is lifted to the poses above it ([`super::place`]), and each pose is measured on the geometry
@@ -18,6 +18,7 @@ use num_complex::Complex64;
 use super::assemblies::{
     Assemblies, AssemblyMode, ComplexMode, Rejection, SelfMotion, Special, Status, ThetaPolynomial,
 };
+use super::constraint::reference_consistency;
 use super::fibre::{Fibre, Part, parts, parts_alike};
 use super::given_orientation::{Given, assemble_two, exact_rotation, same_orientation};
 use super::group::{Dyad, Pose, Triad};
@@ -25,7 +26,7 @@ use super::numbers::{LocalLegs, TriadNumbers};
 use super::pinned::PinnedDyad;
 use super::place::{Placed, Solution, place, place_pinned};
 use super::special::special_shapes;
-use super::triad::{LegNumbers, leg_row, rows_consistency, triad_rows};
+use super::triad::{LegNumbers, leg_row, triad_rows};
 use super::vanishing::motions;
 use super::verify::{Placement, complex_residual, determinant, pinned_determinant, residual, size};
 use crate::algebra::{Gaussian, Integer, Ring, Trig};
@@ -152,7 +153,7 @@ impl<'a> Gathering<'a> {
     fn turning_platform(&mut self, legs: &[LegNumbers<Integer>; 3], order: usize, exponent: i64) {
         let symbols = legs.each_ref().map(|leg| leg.map(|x| Trig::constant(x.clone())));
         let rows = triad_rows(&symbols, &Trig::cosine(), &Trig::sine());
-        let t = rows_consistency(&rows);
+        let t = reference_consistency(legs, order);
         self.out.polynomial = Some(shown(&t, order));
         if t.vanishes() {
             self.out.account.degree = 0;

@@ -207,3 +207,51 @@ impl Triad {
         self.legs.each_ref().map(Dyad::name).join("-")
     }
 }
+
+/// How many finite solutions, real and complex, a triad of these dyads has in general; also a bound for the real ones.
+///
+/// `dyads` are names `RR`, `PR`, `RP`, `PP` in any order; `None` for any other name, or unless there are three.
+///
+/// ```
+/// use assur::triad_degree;
+/// assert_eq!(triad_degree(&["RR", "RR", "RR"]), Some(6));
+/// assert_eq!(triad_degree(&["RP", "RP", "RP"]), Some(2));
+/// assert_eq!(triad_degree(&["PR", "PP", "RP"]), Some(1));
+/// ```
+pub fn triad_degree(dyads: &[&str]) -> Option<usize> {
+    let count = |name| dyads.iter().filter(|dyad| **dyad == name).count();
+    Some(match (count("RR"), count("PR"), count("RP"), count("PP")) {
+        (3, 0, 0, 0) | (2, 1, 0, 0) | (2, 0, 1, 0) | (1, 1, 1, 0) => 6,
+        (1, 2, 0, 0) | (1, 0, 2, 0) | (0, 2, 1, 0) | (0, 1, 2, 0) => 4,
+        (0, 3, 0, 0) | (0, 0, 3, 0) => 2,
+        (2, 0, 0, 1) | (1, 1, 0, 1) | (1, 0, 1, 1) => 2,
+        (0, 2, 0, 1) | (0, 1, 1, 1) | (0, 0, 2, 1) => 1,
+        (rr, pr, rp, pp @ 2..) if rr + pr + rp + pp == 3 => 0,
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn swapping_base_and_platform_keeps_the_degree() {
+        let names = ["RR", "PR", "RP", "PP"];
+        let swapped = ["RR", "RP", "PR", "PP"];
+        let mut triads = 0;
+        for i in 0..4 {
+            for j in i..4 {
+                for k in j..4 {
+                    let degree = triad_degree(&[names[i], names[j], names[k]]);
+                    assert!(degree.is_some());
+                    assert_eq!(degree, triad_degree(&[swapped[k], swapped[i], swapped[j]]));
+                    triads += 1;
+                }
+            }
+        }
+        assert_eq!(triads, 20);
+        assert_eq!(triad_degree(&["RR", "RR"]), None);
+        assert_eq!(triad_degree(&["RR", "RR", "RRR"]), None);
+    }
+}

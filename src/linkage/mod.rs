@@ -1,12 +1,16 @@
 //! Planar Assur groups: what is left of a mechanism when its drivers are held.
 //!
-//! A [`Triad`] is a platform on three [`Dyad`]s; [`Triad::assemble`] finds every way to put it together.
+//! A [`Triad`] is a platform on three [`Dyad`]s; [`Triad::assemble`] finds every way to put it together. A [`TwoLinkGroup`] is one of
+//! the five groups of class II.
 
 mod assemble;
 mod assemblies;
+mod constraint;
+mod dyad;
 mod fibre;
 mod given_orientation;
 mod group;
+mod name;
 mod numbers;
 mod pinned;
 mod place;
@@ -18,6 +22,9 @@ mod verify;
 pub use assemblies::{
     Assemblies, AssemblyMode, ComplexMode, Rejection, RejectionReason, SelfMotion, Special, Status, ThetaPolynomial,
 };
-pub use group::{Dyad, Offset, Pose, Triad, TriadError};
+pub use constraint::{RotationNumbers, constraint_system, sylvester_plan};
+pub use dyad::{Guide, TwoLinkAssemblies, TwoLinkAssembly, TwoLinkError, TwoLinkGroup, TwoLinkSpecial};
+pub use group::{Dyad, Offset, Pose, Triad, TriadError, triad_degree};
+pub use name::{DyadKind, GroupName, GroupNameError};
 pub use pinned::{PinnedDyad, PinnedDyadError};
 pub use triad::{LegNumbers, Row, Rows, consistency, leg_row, triad_rows};

@@ -18,12 +18,12 @@
 //! | RP, normal `m = i v` | `R m` | `(R m)·k + delta` |
 //!
 //! With an RR leg as reference, `u·u = l1²` and two rows give `T = |e2 g3 - e3 g2|² - l1² (g2 x g3)²`; without one, three rows
-//! give their determinant. `T` has the order of the table in [`Triad::order`], and its roots are the orientations
+//! give their determinant. `T` has half the degree of [`triad_degree`], and its roots are the orientations
 //! of the assembly modes. The derivation `triad_sextic` compares it with the Sylvester route, symbol by symbol.
 //!
 //! Source: Gosselin, Sefrioui, Richard 1992 for RR-RR-RR; the rows of sliders are ours.
 
-use super::group::{Dyad, Triad};
+use super::group::{Dyad, Triad, triad_degree};
 use crate::algebra::{Gaussian, Ring};
 
 /// The numbers of one leg over a ring, seen from the reference leg.
@@ -61,6 +61,15 @@ pub enum LegNumbers<R> {
 }
 
 impl<R: Ring> LegNumbers<R> {
+    /// The passive joints, base first: `RR`, `PR` or `RP`.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Circle { .. } => "RR",
+            Self::Line { .. } => "PR",
+            Self::PlatformLine { .. } => "RP",
+        }
+    }
+
     /// The same leg over another ring.
     pub fn map<S: Ring>(&self, f: impl Fn(&R) -> S) -> LegNumbers<S> {
         match self {
@@ -173,7 +182,7 @@ pub fn consistency<R: Ring>(legs: &[LegNumbers<R>; 3], c: &R, s: &R) -> R {
 }
 
 /// `T` from the rows; see [`consistency`].
-pub(super) fn rows_consistency<R: Ring>(rows: &Rows<R>) -> R {
+fn rows_consistency<R: Ring>(rows: &Rows<R>) -> R {
     match rows {
         Rows::Circle { radius, rows: [second, third] } => {
             let mismatch = second.mismatch(third);
@@ -189,13 +198,7 @@ pub(super) fn rows_consistency<R: Ring>(rows: &Rows<R>) -> R {
 }
 
 impl Triad {
-    /// The order of `T(phi)` of a triad without PP legs, half the number of its finite complex assemblies; `None` with a PP leg.
-    ///
-    /// | 3 | 2 | 1 |
-    /// |---|---|---|
-    /// | RR-RR-RR, RR-RR-PR, RR-RR-RP, RR-PR-RP | RR-PR-PR, RR-RP-RP, PR-PR-RP, PR-RP-RP | PR-PR-PR, RP-RP-RP |
-    ///
-    /// The derivation `degree_table` shows each exactly.
+    /// The order of `T(phi)` of a triad without PP legs, half of [`Triad::degree`]; `None` with a PP leg.
     ///
     /// ```
     /// use assur::{Dyad, Triad, nalgebra::Vector2};
@@ -203,26 +206,12 @@ impl Triad {
     /// assert_eq!(Triad::new([leg(1.0), leg(2.0), leg(4.0)]).unwrap().order(), Some(1));
     /// ```
     pub fn order(&self) -> Option<usize> {
-        let count = |name: &str| self.legs().iter().filter(|leg| leg.name() == name).count();
-        match (count("RR"), count("PR"), count("RP")) {
-            (3, ..) | (2, 1, 0) | (2, 0, 1) | (1, 1, 1) => Some(3),
-            (1, 2, 0) | (1, 0, 2) | (0, 2, 1) | (0, 1, 2) => Some(2),
-            (0, 3, 0) | (0, 0, 3) => Some(1),
-            _ => None,
-        }
+        let translating = self.legs().iter().any(|leg| matches!(leg, Dyad::PP { .. }));
+        (!translating).then(|| self.degree() / 2)
     }
 
-    /// How many assemblies there can be: the number of finite complex solutions of a generic triad of this name.
-    ///
-    /// Twice [`Triad::order`] without PP legs; with one PP leg 2 if another leg is RR, else 1; with more, 0.
+    /// How many assemblies there can be: the number of finite complex solutions of a generic triad of this name (see [`triad_degree`]).
     pub fn degree(&self) -> usize {
-        let parallel = self.legs().iter().filter(|leg| matches!(leg, Dyad::PP { .. })).count();
-        let circles = self.legs().iter().filter(|leg| matches!(leg, Dyad::RR { .. })).count();
-        match (self.order(), parallel) {
-            (Some(order), _) => 2 * order,
-            (None, 1) if circles > 0 => 2,
-            (None, 1) => 1,
-            (None, _) => 0,
-        }
+        triad_degree(&self.legs().each_ref().map(Dyad::name)).expect("the names of dyads")
     }
 }

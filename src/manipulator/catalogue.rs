@@ -4,7 +4,7 @@
 //! manipulator closes near one pose, and rounded to numbers that are pleasant to edit. So every model has assembly modes for the
 //! inputs that come with it.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::Vector2;
 use thiserror::Error;
@@ -18,6 +18,8 @@ const BASE: [[f64; 2]; 3] = [[0.0, 0.0], [20.0, 0.0], [8.0, 16.0]];
 const PLATFORM: [[f64; 2]; 3] = [[0.0, 0.0], [9.0, 0.0], [5.0, 7.0]];
 /// Directions of first sliders on the base, in degrees.
 const BASE_SLIDERS: [f64; 3] = [60.0, 135.0, -75.0];
+/// Directions of last sliders on the platform of legs that may choose them, in degrees.
+const PLATFORM_SLIDERS: [f64; 3] = [30.0, 140.0, -100.0];
 /// The pose near which every model closes.
 const HOME: [f64; 3] = [5.5, 4.0, 0.3];
 /// A second slider stands at right angles to the first.
@@ -149,9 +151,8 @@ fn fit(leg: &mut Leg, place: usize) -> [f64; 3] {
         }
         [Revolute, Prismatic, Prismatic] => {
             leg.links[1] = Placement::turned(0.0, 0.0, SECOND_SLIDER);
-            // The platform's slider is turned 30° against the platform's side.
-            let beta = PI / 6.0;
-            leg.platform = Placement::turned_deg(b.x, b.y, 30.0);
+            let beta = PLATFORM_SLIDERS[place].to_radians();
+            leg.platform = Placement::turned_deg(b.x, b.y, PLATFORM_SLIDERS[place]);
             let turn = phi + beta - SECOND_SLIDER;
             let (sin, cos) = turn.sin_cos();
             [turn, reach.x * cos + reach.y * sin, reach.y * cos - reach.x * sin]

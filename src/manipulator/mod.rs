@@ -21,7 +21,7 @@ pub use forward::{AssemblyModes, ManipulatorMode, Violation};
 pub use inverse::{InverseSpecial, KinematicsError, Unreachable, WorkingMode, WorkingModes};
 pub use lock::{LockError, LockedGroup};
 pub use locus::{LegLocus, LocusError, PlaneCurve, SingularityLocus};
-pub use mobility::{Remark, triad_degree};
+pub use mobility::Remark;
 pub use screw::{joint_screw, power, reciprocal_wrench, screw_rate};
 pub use singular::{Reading, Singularity, SingularityKind};
 pub use velocity::{SingularMatrix, Velocity};

@@ -18,6 +18,10 @@ const CAPTION: f64 = 30.0;
 const GAP: f64 = 16.0;
 const HEADER: f64 = 62.0;
 const LEGEND: f64 = 44.0;
+/// Width that a letter of the legend takes on average.
+const LETTER: f64 = 5.8;
+/// Part of the window by which a point may lie beyond it and still count as inside: rounding, not reach.
+const EDGE: f64 = 0.01;
 /// A mode that reaches this many times as far as the middle one is cut off rather than shrink all others.
 const OUTLIER: f64 = 6.0;
 
@@ -39,7 +43,8 @@ impl Window {
     }
 
     fn contains(&self, p: Vector2<f64>) -> bool {
-        (0..2).all(|axis| self.low[axis] <= p[axis] && p[axis] <= self.high[axis])
+        let edge = EDGE * self.size().max();
+        (0..2).all(|axis| self.low[axis] - edge <= p[axis] && p[axis] <= self.high[axis] + edge)
     }
 
     /// The window of the scenes that are not absurdly far from the others.
@@ -149,16 +154,18 @@ fn legend(y: f64, width: f64, scale: f64, scenes: &[Scene]) -> Group {
         entries.push((pin(Look { actuated: false, violated: true }), "outside its limits"));
     }
     let mut group = Group::new().set("transform", format!("translate({GAP} {y:.1})"));
-    let mut x = 16.0;
+    let mut x = 4.0;
     for (mark, label) in entries {
+        let half = match mark {
+            Mark::Telescope { .. } => 18.0,
+            Mark::Block { .. } => 11.0,
+            _ => 8.0,
+        };
         let symbol = symbols::draw(&mark, &canvas);
-        group = group.add(Group::new().set("transform", format!("translate({x:.1} 0)")).add(symbol)).add(text(
-            label,
-            x + 20.0,
-            4.0,
-            11.5,
-        ));
-        x += 48.0 + 6.2 * label.len() as f64;
+        group = group
+            .add(Group::new().set("transform", format!("translate({:.1} 0)", x + half)).add(symbol))
+            .add(text(label, x + 2.0 * half + 4.0, 4.0, 11.0));
+        x += 2.0 * half + 18.0 + LETTER * label.len() as f64;
     }
     group.add(scale_bar(width - 3.0 * GAP, scale))
 }

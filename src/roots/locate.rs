@@ -4,11 +4,13 @@
 //! real ones are counted without rounding. Roots are polished until the two agree: as many as were counted lie on the
 //! circle to half the digits computed, and no other does.
 
+use dashu_int::ops::BitTest;
 use num_complex::Complex64;
 use thiserror::Error;
 
+use super::companion::companion_roots;
 use super::isolate::isolate_real_roots;
-use super::polish::{FineRoot, NotSettled, polish_roots};
+use super::polish::{FineRoot, NotSettled, polish_roots, scaled};
 use crate::algebra::{Gaussian, Integer, UPoly, integer_to_f64_scaled};
 
 /// A root `theta` of a polynomial real on the unit circle.
@@ -88,8 +90,15 @@ fn tell_apart(roots: Vec<FineRoot>, counted: usize, bits: usize) -> Result<Vec<C
     Ok(roots.into_iter().zip(on_circle).map(|(root, on_circle)| CircleRoot { root, on_circle }).collect())
 }
 
-/// Rough roots to start from.
+/// Rough roots to start from: eigenvalues of the companion matrix, and where those fail or are too few, points apart.
 fn starting_values(in_theta: &UPoly<Gaussian<Integer>>) -> Vec<Complex64> {
     let degree = in_theta.degree().unwrap_or(0);
-    (0..degree).map(|k| Complex64::from_polar(1.0 + 0.01 * k as f64, 0.4 + 6.1 * k as f64 / degree as f64)).collect()
+    let bits = |c: &Gaussian<Integer>| c.re.bit_len().max(c.im.bit_len()) as i64;
+    let exponent = in_theta.coefficients().iter().map(bits).max().unwrap_or(0);
+    let rounded: Vec<Complex64> = in_theta.coefficients().iter().map(|c| scaled(c, -exponent)).collect();
+    let mut starts = companion_roots(&rounded).map_or_else(|_| Vec::new(), |roots| roots.finite);
+    // Coefficients that underflow lose roots at infinity; polishing finds them from anywhere.
+    let missing = starts.len()..degree;
+    starts.extend(missing.map(|k| Complex64::from_polar(1.0 + k as f64, 0.4 + 6.1 * k as f64 / degree as f64)));
+    starts
 }

@@ -1,9 +1,14 @@
 //! From a polynomial to its roots: how many are real, exactly, and where all of them lie, to any number of digits.
+//!
+//! Rough complex roots come from the eigenvalues of a balanced companion matrix ([`companion_roots`]); for polynomials with exact
+//! coefficients they are polished to any number of bits ([`polish_roots`]) and the real ones are counted ([`isolate_real_roots`]).
 
+mod companion;
 mod isolate;
 mod locate;
 mod polish;
 
+pub use companion::{PolynomialRoots, RootsError, companion_roots, companion_roots_real};
 pub use isolate::{Isolation, isolate_real_roots};
 pub use locate::{CircleRoot, FIRST_BITS, MAX_BITS, NotLocated, locate_on_circle};
 pub use polish::{FineRoot, NotSettled, polish_roots};

@@ -68,6 +68,12 @@ pub enum EliminateError {
         /// The name.
         name: String,
     },
+    /// Neither polynomial contains the variable.
+    #[error("resultant `{name}`: neither polynomial contains the variable to be eliminated")]
+    NothingToEliminate {
+        /// The resultant's name.
+        name: String,
+    },
     /// A stated formal degree is too low.
     #[error("resultant `{name}`: {source}")]
     FormalDegree {
@@ -139,8 +145,12 @@ pub fn eliminate<C: Domain>(system: &System<C>, plan: &Plan<C>) -> Result<Elimin
                 let variable = variable_number(system, eliminate)?;
                 let (f, g) = (look_up(&polynomials, &of.0)?, look_up(&polynomials, &of.1)?);
                 let degrees = degrees.unwrap_or_else(|| (f.degree_in(variable), g.degree_in(variable)));
-                let made = resultant_formal(f, g, variable, degrees)
-                    .map_err(|source| EliminateError::FormalDegree { name: name.clone(), source })?;
+                let made = match degrees {
+                    _ if f.vanishes() || g.vanishes() => Poly::zero(),
+                    (0, 0) => return Err(EliminateError::NothingToEliminate { name: name.clone() }),
+                    _ => resultant_formal(f, g, variable, degrees)
+                        .map_err(|source| EliminateError::FormalDegree { name: name.clone(), source })?,
+                };
                 (name, made)
             }
             Step::Remove { from, factor, power, called } => {

@@ -1,0 +1,84 @@
+//! The command line: parses, calls one function of the library, prints.
+
+mod args;
+mod derive;
+mod output;
+mod png;
+mod tables;
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use args::{Arguments, Asked, Command};
+use assur::Manipulator;
+use assur::exchange::{AngleUnit, CheckReport, ForwardReport, ModelFile, read_triad};
+use clap::{CommandFactory, Parser};
+use output::{Failure, Files};
+
+fn main() -> ExitCode {
+    match run(Arguments::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => output::report(&failure),
+    }
+}
+
+fn run(arguments: Arguments) -> Result<(), Failure> {
+    match arguments.command {
+        Command::New { family, output } => new(&family, output.as_deref()),
+        Command::Check { model, json } => {
+            let report = CheckReport::of(&ModelFile::read(&model)?);
+            output::print(&if json { report.to_json() } else { tables::check(&report) })
+        }
+        Command::Forward { model, inputs, asked } => forward(&model, &inputs, &asked),
+        Command::Triad { file, asked } => triad(&file, &asked),
+        Command::Derive { name: Some(name), .. } => output::print(&derive::document(&name)?),
+        Command::Derive { name: None, .. } => output::print(&derive::list()),
+        Command::Completions { shell } => {
+            let mut script = Vec::new();
+            clap_complete::generate(shell, &mut Arguments::command(), "assur", &mut script);
+            output::print(&String::from_utf8_lossy(&script))
+        }
+    }
+}
+
+fn new(family: &str, output: Option<&Path>) -> Result<(), Failure> {
+    let (manipulator, inputs) = Manipulator::of_family(family)?;
+    let angle_unit = AngleUnit::Deg;
+    let inputs = tables::inputs(&manipulator, &inputs, angle_unit);
+    let file = output.map_or("MODEL".into(), |path| path.display().to_string());
+    let model = ModelFile { manipulator, angle_unit };
+    let text = format!(
+        "# {}. Lengths in any one unit.\n# Every assembly mode:  assur forward {file} --inputs={inputs}\n\n{}",
+        model.manipulator.name,
+        model.to_toml()
+    );
+    match output {
+        Some(path) => Files::default().with(path, text.into_bytes()).write(),
+        None => output::print(&text),
+    }
+}
+
+fn forward(path: &Path, inputs: &[f64], asked: &Asked) -> Result<(), Failure> {
+    let model = ModelFile::read(path)?;
+    let robot = &model.manipulator;
+    let inputs = tables::inputs_in_radians(robot, inputs, model.angle_unit);
+    let answer =
+        robot.forward(&inputs).map_err(|error| Failure::About(path.display().to_string(), error.to_string()))?;
+    Files::default().with_drawings(asked, || assur::plot::draw_modes(robot, &answer))?.write()?;
+    output::print(&if asked.json {
+        ForwardReport::of_manipulator(&answer).to_json()
+    } else {
+        tables::forward(&model, &answer, asked)
+    })
+}
+
+fn triad(path: &Path, asked: &Asked) -> Result<(), Failure> {
+    let triad = read_triad(path)?;
+    let answer = triad.assemble();
+    Files::default().with_drawings(asked, || assur::plot::draw_assemblies(&triad, &answer))?.write()?;
+    output::print(&if asked.json {
+        ForwardReport::of_triad(&triad, &answer).to_json()
+    } else {
+        tables::triad(&triad, &answer, asked)
+    })
+}

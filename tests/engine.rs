@@ -1,0 +1,219 @@
+//! The generic engine on systems with no mechanism in them: every solution found, and the account adds up.
+
+use assur::algebra::{Gaussian, Integer, Monomial, Poly, Rational, Ring};
+use assur::num_complex::Complex64;
+use assur::solve::ToComplex;
+use assur::{Outcome, Plan, RootRejection, Solutions, System, solve};
+use proptest::prelude::*;
+
+type P = Poly<Rational>;
+
+fn n(value: i64) -> P {
+    P::from_int(value)
+}
+
+fn xyz() -> [P; 3] {
+    [0, 1, 2].map(P::variable)
+}
+
+fn solved<C: ToComplex>(system: &System<C>, plan: &Plan<C>) -> Solutions {
+    let found = solve(system, plan).unwrap();
+    assert!(found.account.adds_up(), "{:?}", found.account);
+    assert!(found.worst_residual() < 1e-11);
+    let listed: usize = found.solutions.iter().map(|s| s.multiplicity).sum();
+    assert_eq!(listed, found.account.real + found.account.complex);
+    found
+}
+
+/// `s_i² + a s_i s_j + b s_j² + c s_i + d s_j + e` in the cyclic pairs.
+fn three_quadrics(coefficients: &[[i64; 6]; 3]) -> System<Rational> {
+    let mut system = System::new(["s1", "s2", "s3"]);
+    for (k, c) in coefficients.iter().enumerate() {
+        let (i, j) = (k, (k + 1) % 3);
+        let powers = [(2, 0), (1, 1), (0, 2), (1, 0), (0, 1), (0, 0)];
+        let quadric = powers.iter().zip(c).fold(P::zero(), |sum, (&(p, q), &c)| {
+            let monomial = Monomial::variable_power(i, p) * Monomial::variable_power(j, q);
+            sum + Poly::term(Rational::from(c) * Rational::from_parts(1.into(), 7u8.into()), monomial)
+        });
+        system.add(format!("quadric {}", k + 1), quadric);
+    }
+    system
+}
+
+fn octic() -> Plan<Rational> {
+    Plan::new("s2").resultant("F23", ("quadric 1", "quadric 3"), "s1").resultant("octic", ("F23", "quadric 2"), "s3")
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(60))]
+
+    #[test]
+    fn three_random_quadrics_have_eight_solutions(c in prop::array::uniform3(prop::array::uniform6(1i64..40)), signs in 0u32..1 << 18) {
+        let mut c = c;
+        for (bit, entry) in c.iter_mut().flatten().enumerate() {
+            if signs >> bit & 1 == 1 {
+                *entry = -*entry;
+            }
+        }
+        let found = solve(&three_quadrics(&c), &octic()).unwrap();
+        prop_assert_eq!(found.account.degree, 8);
+        prop_assert!(found.account.adds_up());
+        prop_assert_eq!(found.account.real + found.account.complex, 8, "{:?}", found);
+        prop_assert!(found.worst_residual() < 1e-11);
+    }
+
+    /// Three quadrics through a rational point have it among their solutions.
+    #[test]
+    fn planted_solutions_come_back(c in prop::array::uniform3(prop::array::uniform6(-9i64..10)), at in prop::array::uniform3(-5i64..6)) {
+        let mut c = c;
+        for (k, quadric) in c.iter_mut().enumerate() {
+            // Squares that are there keep the variables in; the constant makes the point fit.
+            (quadric[0], quadric[2]) = (quadric[0].max(1), quadric[2].min(-1));
+            let (s, t) = (at[k], at[(k + 1) % 3]);
+            let [a, b, d, e, f, _] = *quadric;
+            quadric[5] = -(a * s * s + b * s * t + d * t * t + e * s + f * t);
+        }
+        let found = solve(&three_quadrics(&c), &octic()).unwrap();
+        prop_assert!(found.account.adds_up());
+        if found.account.undecided + found.account.self_motion == 0 {
+            let near = |s: &assur::Solution| s.values.iter().zip(&at).all(|(z, &x)| (z - x as f64).norm() < 1e-5);
+            prop_assert!(found.solutions.iter().any(near), "{:?} {:?}", at, found);
+        }
+    }
+}
+
+#[test]
+fn circle_and_line_by_position() {
+    let [x, y, _] = xyz();
+    let plan = Plan::new("y").resultant("meet", ("circle", "line"), "x");
+    for (height, real, complex) in [(0, 2, 0), (6, 0, 2)] {
+        let system =
+            System::new(["x", "y"]).with("circle", x.power(2) + y.power(2) - n(25)).with("line", x.clone() - n(height));
+        let found = solved(&system, &plan);
+        assert_eq!((found.account.real, found.account.complex, found.account.degree), (real, complex, 2));
+    }
+    // A tangent: one solution of multiplicity two.
+    let system = System::new(["x", "y"]).with("circle", x.power(2) + y.power(2) - n(25)).with("line", x - n(5));
+    let found = solved(&system, &plan);
+    assert_eq!(found.solutions.len(), 1);
+    assert_eq!((found.solutions[0].multiplicity, found.solutions[0].real), (2, true));
+}
+
+#[test]
+fn two_solutions_above_one_root() {
+    // y = 0 carries x = 3 and x = -3: a simple solution each, the root double, the corank two.
+    let [x, y, _] = xyz();
+    let system = System::new(["x", "y"])
+        .with("f", x.power(2) + y.power(2) - n(9))
+        .with("g", x.power(2) + n(4) * y.power(2) + y.clone() - n(9));
+    let found = solved(&system, &Plan::new("y").resultant("r", ("f", "g"), "x"));
+    assert_eq!((found.account.degree, found.account.real), (4, 4));
+    assert!(found.solutions.iter().all(|s| s.multiplicity == 1));
+    let above_zero = found.solutions.iter().filter(|s| s.values[1].norm() < 1e-12).count();
+    assert_eq!(above_zero, 2);
+}
+
+#[test]
+fn two_circles_lose_two_solutions_to_infinity() {
+    let [x, y, _] = xyz();
+    let system = System::new(["x", "y"])
+        .with("c1", x.power(2) + y.power(2) - n(4))
+        .with("c2", (x - n(3)).power(2) + y.power(2) - n(4));
+    let found = solved(&system, &Plan::new("y").resultant("r", ("c1", "c2"), "x").of_degree(4));
+    assert_eq!((found.account.real, found.account.at_infinity), (2, 2));
+    assert!((found.solutions[0].values[0] - 1.5).norm() < 1e-14);
+}
+
+#[test]
+fn katsura_2() {
+    // x + 2y + 2z = 1, x² + 2y² + 2z² = x, 2xy + 2yz = y: four solutions, all real; (1, 0, 0) and (1/3, 0, 1/3) among them.
+    let [x, y, z] = xyz();
+    let system = System::new(["x", "y", "z"])
+        .with("sum", x.clone() + n(2) * y.clone() + n(2) * z.clone() - n(1))
+        .with("squares", x.power(2) + n(2) * y.power(2) + n(2) * z.power(2) - x.clone())
+        .with("products", n(2) * x * y.clone() + n(2) * y.clone() * z - y);
+    let plan = Plan::new("z")
+        .resultant("a", ("squares", "sum"), "x")
+        .resultant("b", ("products", "sum"), "x")
+        .resultant("left", ("a", "b"), "y");
+    let found = solved(&system, &plan);
+    assert_eq!((found.account.degree, found.account.real), (4, 4), "{found:?}");
+    for expected in [[1.0, 0.0, 0.0], [1.0 / 3.0, 0.0, 1.0 / 3.0]] {
+        let near = |s: &assur::Solution| s.values.iter().zip(expected).all(|(v, e)| (v - e).norm() < 1e-12);
+        assert!(found.solutions.iter().any(near), "{expected:?}");
+    }
+}
+
+#[test]
+fn gaussian_coefficients() {
+    // z w = 1 and z = (1 + i) w: w² = 1/(1 + i).
+    type G = Poly<Gaussian<Integer>>;
+    let [z, w] = [0, 1].map(G::variable);
+    let unit = G::constant(Gaussian::new(Integer::ONE, Integer::ONE));
+    let system = System::new(["z", "w"]).with("circle", z.clone() * w.clone() - G::one()).with("line", z - unit * w);
+    let found = solved(&system, &Plan::new("w").resultant("r", ("circle", "line"), "z"));
+    assert_eq!(found.account.complex, 2);
+    for s in &found.solutions {
+        assert!((s.values[1].powu(2) * Complex64::new(1.0, 1.0) - 1.0).norm() < 1e-15);
+    }
+}
+
+#[test]
+fn degenerate_systems_end_with_a_name() {
+    let [x, y, _] = xyz();
+    let plan = Plan::new("y").resultant("r", ("f", "g"), "x");
+    // A shared component.
+    let shared = System::new(["x", "y"])
+        .with("f", x.clone() * (x.clone() - y.clone()))
+        .with("g", (x.clone() - y.clone()) * (y.clone() - n(2)));
+    assert_eq!(solved(&shared, &plan).outcome, Outcome::IdenticallyZero { name: "r".into() });
+    // Parallel lines.
+    let parallel = System::new(["x", "y"]).with("f", x.clone() - y.clone()).with("g", x.clone() - y.clone() - n(1));
+    assert_eq!(solved(&parallel, &plan).outcome, Outcome::NoFiniteSolution);
+    // A root that a third equation refuses.
+    let refused = System::new(["x", "y"])
+        .with("f", x.power(2) + y.power(2) - n(25))
+        .with("g", x.clone() - n(4))
+        .with("third", x.clone() + y.clone() - n(7));
+    let found = solved(&refused, &plan);
+    assert_eq!((found.account.real, found.account.rejected), (1, 1));
+    assert_eq!(found.rejected[0].reason, RootRejection::NothingAbove);
+    // A plan that multiplies its own extraneous root in.
+    let doubled = Plan::new("y").combine("fy", [(y.clone() - n(3), "f")]).resultant("r", ("fy", "g"), "x");
+    let system = System::new(["x", "y"]).with("f", x.power(2) + y.power(2) - n(25)).with("g", x.clone() - n(4));
+    let found = solved(&system, &doubled);
+    assert_eq!((found.account.real, found.account.rejected), (2, 1), "{found:?}");
+    assert_eq!(found.rejected[0].reason, RootRejection::ExtraMultiplicity);
+    // Nothing leads back to x.
+    let error = solve(&system, &Plan::new("y").combine("r", [(n(1), "f"), (-(x.clone() + n(4)), "g")])).unwrap_err();
+    assert_eq!(error.to_string(), "plan: no step eliminates `x`, so it cannot be lifted");
+}
+
+#[test]
+fn a_change_of_unit_scales_the_solutions_exactly() {
+    let coefficients = [[3, -2, 5, 7, -11, 4], [2, 3, -7, 1, 5, -9], [-4, 1, 3, 8, -6, -13]];
+    let base = solved(&three_quadrics(&coefficients), &octic());
+    for exponent in [-20i32, 20] {
+        let unit = if exponent > 0 {
+            Rational::from(1i64 << exponent)
+        } else {
+            Rational::from_parts(1.into(), (1u64 << -exponent).into())
+        };
+        let mut system = System::new(["s1", "s2", "s3"]);
+        for (label, polynomial) in three_quadrics(&coefficients).equations() {
+            // s -> s / unit
+            let scaled = polynomial.terms().fold(P::zero(), |sum, (m, c)| {
+                let c = (0..m.total_degree()).fold(c.clone(), |c, _| c / unit.clone());
+                sum + Poly::term(c, m.clone())
+            });
+            system.add(label.clone(), scaled);
+        }
+        let found = solved(&system, &octic());
+        assert_eq!(found.account, base.account);
+        for (a, b) in base.solutions.iter().zip(&found.solutions) {
+            for (u, v) in a.values.iter().zip(&b.values) {
+                assert!((u * 2f64.powi(exponent) - v).norm() < 1e-12 * v.norm());
+            }
+        }
+    }
+}
