@@ -85,10 +85,10 @@ pub use linkage::{
     TwoLinkAssemblies, TwoLinkAssembly, TwoLinkError, TwoLinkGroup, TwoLinkSpecial, triad_degree,
 };
 pub use manipulator::{
-    AssemblyModes, DescriptionError, FamilyError, InverseSpecial, JointKind, JointsError, JointsReason,
-    KinematicsError, Leg, LegLocus, LockError, LockedGroup, LocusError, Manipulator, ManipulatorMode, Placement,
-    PlaneCurve, Reading, Remark, SingularMatrix, Singularity, SingularityKind, SingularityLocus, Unreachable, Velocity,
-    Violation, WorkingMode, WorkingModes,
+    AssemblyModes, DescriptionError, FamilyError, FollowedPath, InverseSpecial, JointKind, JointsError, JointsReason,
+    KinematicsError, Leg, LegLocus, LockError, LockedGroup, LocusError, Manipulator, ManipulatorMode, PathError,
+    PathEvent, PathEventKind, PathRow, PathSettings, Placement, PlaneCurve, Reading, Remark, SingularMatrix,
+    Singularity, SingularityKind, SingularityLocus, Unreachable, Velocity, Violation, WorkingMode, WorkingModes,
 };
 pub use solve::{
     Account, Eliminant, EliminateError, Outcome, Plan, RejectedRoot, RootRejection, Solution, Solutions, SolveError,

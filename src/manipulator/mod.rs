@@ -4,8 +4,10 @@
 
 mod catalogue;
 mod describe;
+mod follow;
 mod forward;
 mod frame;
+mod hold;
 mod inverse;
 mod joints;
 mod lock;
@@ -17,6 +19,7 @@ mod velocity;
 
 pub use catalogue::FamilyError;
 pub use describe::{DescriptionError, JointKind, JointsError, JointsReason, Leg, Manipulator, Placement};
+pub use follow::{FollowedPath, PathError, PathEvent, PathEventKind, PathRow, PathSettings};
 pub use forward::{AssemblyModes, ManipulatorMode, Violation};
 pub use inverse::{InverseSpecial, KinematicsError, Unreachable, WorkingMode, WorkingModes};
 pub use lock::{LockError, LockedGroup};
