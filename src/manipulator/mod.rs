@@ -15,6 +15,7 @@ mod locus;
 mod mobility;
 mod screw;
 mod singular;
+mod trace;
 mod velocity;
 
 pub use catalogue::FamilyError;
@@ -27,4 +28,5 @@ pub use locus::{LegLocus, LocusError, PlaneCurve, SingularityLocus};
 pub use mobility::Remark;
 pub use screw::{joint_screw, power, reciprocal_wrench, screw_rate};
 pub use singular::{Reading, Singularity, SingularityKind};
+pub use trace::{MapQuantity, PlaneMap, PlaneWindow};
 pub use velocity::{SingularMatrix, Velocity};
