@@ -17,7 +17,7 @@ use crate::algebra::{Domain, Ring, UPoly};
 /// ```
 /// use assur::{algebra::Integer, eliminate::determinant_bareiss};
 /// let matrix = [[0, 2, 1, 0], [1, 1, 0, 0], [3, 0, 1, 2], [0, 0, 5, 1]].map(|row| row.map(Integer::from).to_vec());
-/// assert_eq!(determinant_bareiss(matrix.to_vec()), Integer::from(12));
+/// assert_eq!(determinant_bareiss(matrix.to_vec()), Integer::from(15));
 /// ```
 pub fn determinant_bareiss<R: Domain>(mut matrix: Vec<Vec<R>>) -> R {
     let size = matrix.len();

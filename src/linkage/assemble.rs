@@ -115,7 +115,10 @@ fn points(leg: &Dyad) -> (Complex64, Complex64) {
 struct Gathering<'a> {
     /// Whether the reference point is a pin.
     pinned: bool,
+    /// `legs`, the reference leg first.
     legs: &'a [LegNumbers<f64>],
+    /// 1, or -1 where that order is an odd permutation of the one given.
+    parity: f64,
     /// Lengths of `legs` are in units of `2^unit`.
     unit: i64,
     size: f64,
@@ -129,6 +132,7 @@ impl<'a> Gathering<'a> {
         let (a0, b0) = numbers.order.first().map_or_else(Default::default, |&i| points(&legs[i]));
         Self {
             pinned: false,
+            parity: parity(legs, &numbers.order),
             size: size(&local.legs),
             legs: &local.legs,
             unit: local.unit,
@@ -313,7 +317,13 @@ impl<'a> Gathering<'a> {
         // The pose's own rounded angle turns the reference point, so that the rounding of phi does not swing the platform about a
         // far origin.
         let origin = self.a0 + self.length(solution.u[0]) - Complex64::from_polar(1.0, phi) * self.b0;
-        let det_a = if self.pinned { pinned_determinant(self.legs, at) } else { determinant(self.legs, at) } / scale;
+        // A PP leg restrains the rotation by a pure moment: then no length is left in the determinant.
+        let (det_a, without_pp) = if self.pinned {
+            (pinned_determinant(self.legs, at), self.legs.len() == 2)
+        } else {
+            (self.parity * determinant(self.legs, at), self.legs.len() == 3)
+        };
+        let det_a = if without_pp { det_a / scale } else { det_a };
         let sound = residual <= CLOSURE_GUARD && origin.is_finite();
         if sound {
             let pose = Pose::new(origin.re, origin.im, phi);
@@ -368,27 +378,35 @@ impl<'a> Gathering<'a> {
     }
 }
 
+/// The sign of the order in which legs are solved, PP legs last, against the order given.
+fn parity(legs: &[Dyad], order: &[usize]) -> f64 {
+    let last = (0..legs.len()).filter(|i| !order.contains(i));
+    let order: Vec<usize> = order.iter().copied().chain(last).collect();
+    let exchanges = (0..order.len()).map(|i| order[..i].iter().filter(|&&before| before > order[i]).count());
+    if exchanges.sum::<usize>() % 2 == 0 { 1.0 } else { -1.0 }
+}
+
 /// The angle with -pi written as pi.
 fn principal(phi: f64) -> f64 {
     if phi <= -PI { PI } else { phi }
 }
 
+/// A number to sort modes by.
+type Key = fn(&AssemblyMode) -> f64;
+
 /// Sorts by phi, then x, then y, ties within [`SORTING_TIE`] counting as equal.
 fn sort_modes(modes: &mut [AssemblyMode], size: f64) {
-    let keys: [(fn(&AssemblyMode) -> f64, f64); 3] =
-        [(|m| m.pose.phi, SORTING_TIE), (|m| m.pose.x, SORTING_TIE * size), (|m| m.pose.y, SORTING_TIE * size)];
+    let length = SORTING_TIE * size;
+    let keys: [(Key, f64); 3] = [(|m| m.pose.phi, SORTING_TIE), (|m| m.pose.x, length), (|m| m.pose.y, length)];
     sort_by_keys(modes, &keys);
 }
 
 /// Sorts by the first key, and runs of near-equal values among themselves by the next.
-fn sort_by_keys(modes: &mut [AssemblyMode], keys: &[(fn(&AssemblyMode) -> f64, f64)]) {
+fn sort_by_keys(modes: &mut [AssemblyMode], keys: &[(Key, f64)]) {
     let Some(((key, tie), rest)) = keys.split_first() else { return };
     modes.sort_by(|p, q| key(p).total_cmp(&key(q)));
-    let mut start = 0;
-    while start < modes.len() {
-        let run = modes[start..].windows(2).take_while(|pair| key(&pair[1]) - key(&pair[0]) <= *tie).count() + 1;
-        sort_by_keys(&mut modes[start..start + run], rest);
-        start += run;
+    for run in modes.chunk_by_mut(|p, q| key(q) - key(p) <= *tie) {
+        sort_by_keys(run, rest);
     }
 }
 

@@ -288,9 +288,9 @@ fn parallel(g: &Guide, h: &Guide) -> Option<TwoLinkSpecial> {
     }
     // With u = direction: u x (p - point) = offset |u| for both; compare them on the first guide's own scale.
     let along = g.direction.dot(&h.direction).signum();
-    let apart = dyadic(h.point.x - g.point.x)
-        .zip(dyadic(h.point.y - g.point.y))
-        .and_then(|(x, y)| Some(dyadic(g.direction.x)? * y - dyadic(g.direction.y)? * x))?;
+    let apart = [h.point.x, h.point.y, g.point.x, g.point.y].map(dyadic);
+    let [hx, hy, gx, gy] = apart.map(|x| x.unwrap_or_default());
+    let apart = dyadic(g.direction.x)? * (hy - gy) - dyadic(g.direction.y)? * (hx - gx);
     let offsets = dyadic((g.offset - along * h.offset) * g.direction.norm())?;
     Some(if apart == offsets { TwoLinkSpecial::CoincidentGuides } else { TwoLinkSpecial::ParallelGuides })
 }

@@ -1,7 +1,10 @@
 //! Triads with a PP leg: the orientation is given, what is left is a line and a circle, or two lines.
 //!
 //! A rotation by an angle in `f64` is taken as the exact rational rotation with `tan(phi/2)` that `f64` nearest to the
-//! angle's (within one unit in the last place of `phi`), so everything below is decided over the rationals.
+//! angle's (within one unit in the last place of `phi`), so everything below is decided over the rationals. The multiples of
+//! pi/2, as `f64` has them, are quarter turns exactly, as they are in a placement.
+
+use std::f64::consts::FRAC_PI_2;
 
 use num_complex::Complex64;
 
@@ -22,6 +25,16 @@ pub(super) enum Given {
 
 /// The exact rotation that stands for an angle: cosine and sine, rational.
 pub(super) fn exact_rotation(phi: f64) -> Gaussian<Rational> {
+    let turns = (phi / FRAC_PI_2).round();
+    if turns * FRAC_PI_2 == phi {
+        let whole = |re: i64, im: i64| Gaussian::new(Rational::from(re), Rational::from(im));
+        return match turns.rem_euclid(4.0) {
+            1.0 => whole(0, 1),
+            2.0 => whole(-1, 0),
+            3.0 => whole(0, -1),
+            _ => whole(1, 0),
+        };
+    }
     // Reduced to (-pi, pi]; there tan(phi/2) is finite for every f64 but may be huge, which is harmless here.
     let reduced = phi.sin().atan2(phi.cos());
     let principal = if phi.abs() <= std::f64::consts::PI { phi } else { reduced };
@@ -112,6 +125,16 @@ mod tests {
             assert!((nearest_f64(&r.re) - phi.cos()).abs() < 3e-16, "{phi}");
             assert!((nearest_f64(&r.im) - phi.sin()).abs() < 3e-16, "{phi}");
         }
+    }
+
+    #[test]
+    fn quarter_turns_are_exact() {
+        let whole = |re: i64, im: i64| Gaussian::new(Rational::from(re), Rational::from(im));
+        let turns = [whole(1, 0), whole(0, 1), whole(-1, 0), whole(0, -1)];
+        for n in -9_i32..=9 {
+            assert_eq!(exact_rotation(f64::from(n) * FRAC_PI_2), turns[n.rem_euclid(4) as usize]);
+        }
+        assert!(!same_orientation(FRAC_PI_2, 1.5707963267948963));
     }
 
     #[test]

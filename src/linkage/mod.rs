@@ -14,6 +14,7 @@ mod name;
 mod numbers;
 mod pinned;
 mod place;
+mod slider_quadrics;
 mod special;
 mod triad;
 mod vanishing;
@@ -27,4 +28,5 @@ pub use dyad::{Guide, TwoLinkAssemblies, TwoLinkAssembly, TwoLinkError, TwoLinkG
 pub use group::{Dyad, Offset, Pose, Triad, TriadError, triad_degree};
 pub use name::{DyadKind, GroupName, GroupNameError};
 pub use pinned::{PinnedDyad, PinnedDyadError};
+pub use slider_quadrics::{SliderPose, SliderQuadricsError, SliderSolutions, rp_rp_rp_quartic};
 pub use triad::{LegNumbers, Row, Rows, consistency, leg_row, triad_rows};

@@ -57,11 +57,11 @@ pub(super) fn residual(legs: &[LegNumbers<f64>], at: Placement) -> f64 {
 /// A leg of length zero exerts no force of its own direction: its wrench is zero, and so is the determinant.
 fn wrench(leg: &LegNumbers<f64>, at: Placement) -> [f64; 3] {
     let (force, point) = match leg {
-        LegNumbers::Circle { alpha, beta, .. } => {
+        LegNumbers::Circle { alpha, beta, length } => {
             let joint = at.u + at.rotation * complex(beta);
             let along = joint - complex(alpha);
-            let length = along.norm();
-            (if length > 0.0 { along / length } else { Complex64::ZERO }, joint)
+            // What rounding leaves of a length of zero points anywhere.
+            (if *length > 0.0 { along / along.norm() } else { Complex64::ZERO }, joint)
         }
         LegNumbers::Line { beta, normal, .. } => (complex(normal), at.u + at.rotation * complex(beta)),
         LegNumbers::PlatformLine { alpha, normal, .. } => (at.rotation * complex(normal), complex(alpha)),
@@ -173,6 +173,15 @@ mod tests {
     fn parallel_legs_are_singular() {
         let at = Placement { rotation: Complex64::ONE, u: Complex64::I };
         assert_eq!(determinant(&square(), at), 0.0);
+    }
+
+    #[test]
+    fn a_leg_of_length_zero_exerts_no_force_even_off_its_place() {
+        let [first, second, third] = square();
+        let LegNumbers::Circle { alpha, beta, .. } = first else { panic!("an RR leg") };
+        let point = LegNumbers::Circle { alpha, beta, length: 0.0 };
+        let at = Placement { rotation: Complex64::ONE, u: Complex64::new(1e-49, 0.0) };
+        assert_eq!(determinant(&[point, second, third], at), 0.0);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry2, Translation2, UnitComplex, Vector2};
 
-use super::scene::{Look, Mark, Scene, caption, number, summary};
+use super::scene::{Look, Mark, Scene, caption, length, number, summary};
 use super::sheet::sheet;
 use crate::manipulator::{AssemblyModes, JointKind, Leg, Manipulator, ManipulatorMode, Placement};
 
@@ -18,7 +18,7 @@ pub fn draw_modes(robot: &Manipulator, answer: &AssemblyModes) -> String {
     let inputs =
         robot.actuated_joints().zip(&answer.inputs).map(|((leg, joint), &value)| match robot.legs[leg].joints[joint] {
             JointKind::Revolute => format!("{}°", number(value.to_degrees())),
-            JointKind::Prismatic => number(value),
+            JointKind::Prismatic => length(value),
         });
     let inputs = inputs.collect::<Vec<_>>().join(", ");
     let count = summary(&answer.group.account, answer.modes.len(), answer.group.status);

@@ -105,6 +105,15 @@ pub(super) fn summary(account: &Account, modes: usize, status: Status) -> String
     format!("{count} (degree {}){status}", account.degree)
 }
 
+/// A length to read: as a [`number`], or with an exponent where that would be all zeros.
+pub(super) fn length(value: f64) -> String {
+    let size = value.abs();
+    if size > 0.0 && !(1e-4..1e6).contains(&size) {
+        return format!("{value:.3e}").replace(".000", "").replace('-', "−");
+    }
+    number(value)
+}
+
 /// A number to read, not to compute with: five significant digits.
 pub(super) fn number(value: f64) -> String {
     let digits = if value == 0.0 { 0 } else { 4 - value.abs().log10().floor().clamp(-20.0, 4.0) as i32 };
@@ -115,7 +124,7 @@ pub(super) fn number(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::number;
+    use super::{length, number};
 
     #[test]
     fn numbers_are_short() {
@@ -124,5 +133,7 @@ mod tests {
         assert_eq!(number(0.0), "0");
         assert_eq!(number(-1e-12), "0");
         assert_eq!(number(0.884_123_4), "0.88412");
+        assert_eq!(length(2e-9), "2e−9");
+        assert_eq!(length(-14.98), "−14.98");
     }
 }

@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 use svg::Document;
 use svg::node::element::{ClipPath, Definitions, Group, Rectangle, Text};
 
-use super::scene::{Look, Mark, Scene, number};
+use super::scene::{Look, Mark, Scene, length};
 use super::symbols::{self, Canvas, INK, PAPER, QUIET};
 
 /// Width of a panel, and bounds of its height, in pixels.
@@ -122,7 +122,7 @@ fn draw_panel(panel: Group, scene: &Scene, window: &Window, canvas: &Canvas, hei
     panel = panel.add(text(&scene.caption, left, height + 18.0, 12.5));
     match scene.pose {
         Some(pose) if !window.contains(Vector2::new(pose.x, pose.y)) => {
-            let note = format!("reaches outside: platform at ({}, {})", number(pose.x), number(pose.y));
+            let note = format!("reaches outside: platform at ({}, {})", length(pose.x), length(pose.y));
             panel.add(text(&note, 8.0, 18.0, 11.0).set("fill", symbols::ALARM))
         }
         _ => panel,
@@ -174,10 +174,10 @@ fn legend(y: f64, width: f64, scale: f64, scenes: &[Scene]) -> Group {
 fn scale_bar(right: f64, scale: f64) -> Group {
     let wanted = PANEL_WIDTH / 4.0 / scale;
     let decade = 10_f64.powf(wanted.log10().floor());
-    let length =
-        [5.0, 2.0, 1.0].map(|step| step * decade).into_iter().find(|&length| length <= wanted).unwrap_or(decade);
-    let pixels = length * scale;
-    let label = text(&number(length), right - pixels / 2.0, -6.0, 11.5).set("text-anchor", "middle");
+    let steps = [5.0, 2.0, 1.0].map(|step| step * decade);
+    let round = steps.into_iter().find(|step| *step <= wanted).unwrap_or(decade);
+    let pixels = round * scale;
+    let label = text(&length(round), right - pixels / 2.0, -6.0, 11.5).set("text-anchor", "middle");
     Group::new().add(symbols::scale_bar(right - pixels, right)).add(label)
 }
 

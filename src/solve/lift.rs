@@ -134,7 +134,7 @@ pub fn lift<C: ToComplex>(
                         None => found.push(solution),
                     }
                 }
-                let (counted, rest) = share_multiplicity(&found, multiplicity, free)?;
+                let Shares { counted, rest } = share_multiplicity(&found, multiplicity, free)?;
                 for (solution, multiplicity) in found.into_iter().zip(counted) {
                     let solution = fibres.finish(solution, multiplicity, &floors);
                     let bin = if solution.real { &mut account.real } else { &mut account.complex };
@@ -179,22 +179,23 @@ fn numeric_roots<C: ToComplex>(eliminant: &Eliminant<C>) -> Result<Vec<(Complex6
     Ok(roots)
 }
 
-/// How the multiplicity of a root is shared among the solutions above it, and what is left over.
-fn share_multiplicity(
-    found: &[Refined],
-    multiplicity: usize,
-    free: bool,
-) -> Result<(Vec<usize>, Option<(RootRejection, usize)>), SolveError> {
+/// How the multiplicity of a root is shared among the solutions above it.
+struct Shares {
+    /// One per solution.
+    counted: Vec<usize>,
+    /// What no solution takes, and why.
+    rest: Option<(RootRejection, usize)>,
+}
+
+fn share_multiplicity(found: &[Refined], multiplicity: usize, free: bool) -> Result<Shares, SolveError> {
     if found.len() > multiplicity {
         return Err(SolveError::TooManyAbove { found: found.len(), multiplicity });
     }
     let mut counted = vec![1; found.len()];
     let left = multiplicity - found.len();
-    if left == 0 {
-        return Ok((counted, None));
-    }
     let singular: Vec<usize> = (0..found.len()).filter(|&k| found[k].singular).collect();
     let reason = match singular.len() {
+        _ if left == 0 => return Ok(Shares { counted, rest: None }),
         _ if free => RootRejection::FreeVariable,
         0 if found.is_empty() => RootRejection::NothingAbove,
         0 => RootRejection::ExtraMultiplicity,
@@ -202,11 +203,11 @@ fn share_multiplicity(
             for k in singular {
                 counted[k] += left / shares;
             }
-            return Ok((counted, None));
+            return Ok(Shares { counted, rest: None });
         }
         _ => RootRejection::SharedMultiplicity,
     };
-    Ok((counted, Some((reason, left))))
+    Ok(Shares { counted, rest: Some((reason, left)) })
 }
 
 /// A candidate after Newton's method.

@@ -2,8 +2,17 @@
 
 use std::fmt::Write;
 
-/// The derivations: name, what it shows, its text worked through.
-const DERIVATIONS: &[(&str, &str, fn() -> String)] = &[];
+/// A derivation that can be printed.
+struct Derivation {
+    name: &'static str,
+    /// What it shows, in one line.
+    claim: &'static str,
+    /// Its text, worked through.
+    document: fn() -> String,
+}
+
+/// The derivations.
+const DERIVATIONS: &[Derivation] = &[];
 
 /// No derivation of this name.
 #[derive(Debug, thiserror::Error)]
@@ -12,14 +21,14 @@ pub(crate) struct UnknownDerivation(String);
 
 /// The text of a derivation.
 pub(crate) fn document(name: &str) -> Result<String, UnknownDerivation> {
-    let found = DERIVATIONS.iter().find(|(known, _, _)| *known == name);
-    found.map(|(_, _, document)| document()).ok_or_else(|| UnknownDerivation(name.to_owned()))
+    let found = DERIVATIONS.iter().find(|derivation| derivation.name == name);
+    found.map(|derivation| (derivation.document)()).ok_or_else(|| UnknownDerivation(name.to_owned()))
 }
 
 /// The names, one a line, with what each shows.
 pub(crate) fn list() -> String {
     let mut text = String::new();
-    for (name, claim, _) in DERIVATIONS {
+    for Derivation { name, claim, .. } in DERIVATIONS {
         // Writing to a String cannot fail.
         let _ = writeln!(text, "{name:<20} {claim}");
     }
