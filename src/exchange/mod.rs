@@ -21,7 +21,10 @@
 
 mod check;
 mod error;
+mod locus_report;
 mod model;
+mod motion_report;
+mod path_file;
 mod reader;
 mod report;
 mod tree;
@@ -30,6 +33,9 @@ mod write;
 
 pub use check::{CheckReport, LegReport, RemarkReport};
 pub use error::{FieldProblem, FileError, Format};
+pub use locus_report::{SingularitiesReport, TracedModes, map_csv};
 pub use model::{AngleUnit, ModelFile};
+pub use motion_report::{InverseReport, Motion, VelocityReport};
+pub use path_file::{PathFileError, PathReport, parse_path, read_path};
 pub use report::{ForwardReport, ModeReport};
 pub use triad_file::{DyadEntry, TriadFile, read_triad};

@@ -8,7 +8,7 @@
 //! | idle joints | wrench |
 //! |---|---|
 //! | RR at `p`, `q` | force `q - p` along the line through both pivots |
-//! | PR, RP: direction `u`, pivot `p` | force `i u` (RP: `-i u`) through the pivot, at right angles to the slider |
+//! | PR, RP: direction `u`, pivot `p` | force `-i u` (RP: `i u`) through the pivot, at right angles to the slider |
 //! | PP: directions `u`, `v` | no force, the moment `u × v` |
 //!
 //! Source: the derivation `velocity_row`; reciprocal screws go back to Ball (1900), for parallel manipulators to Mohamed and Duffy (1985),
