@@ -27,8 +27,7 @@ pub fn document() -> String {
         let velocity = robot.velocity(&pose, "+-+").expect("long links reach");
         let (x, y, phi) = (pose.x, pose.y, pose.phi);
         for (k, &([xa, ya], alpha, [xp, yp])) in geometry.iter().enumerate() {
-            let (dx, dy) =
-                (x + xp * phi.cos() - yp * phi.sin() - xa, y + xp * phi.sin() + yp * phi.cos() - ya);
+            let (dx, dy) = (x + xp * phi.cos() - yp * phi.sin() - xa, y + xp * phi.sin() + yp * phi.cos() - ya);
             // Equations (7)-(10).
             let m = dx * alpha.cos() + dy * alpha.sin();
             let sign = if k == 1 { -1.0 } else { 1.0 };
@@ -51,7 +50,8 @@ pub fn document() -> String {
             worst_a = [a - row[0], b - row[1], c - row[2]].iter().fold(worst_a, |w, d| w.max(d.abs()));
             // Equation (19).
             let d_with = |turned: f64| {
-                rho + xa * alpha.cos() - x * alpha.cos() - xp * turned.cos() + yp * (phi - alpha).sin()
+                rho + xa * alpha.cos() - x * alpha.cos() - xp * turned.cos()
+                    + yp * (phi - alpha).sin()
                     + ya * alpha.sin()
                     - y * alpha.sin()
             };

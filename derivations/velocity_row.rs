@@ -25,11 +25,13 @@ pub fn document() -> String {
     let (u, v) = ([symbol(6), symbol(7)], [symbol(8), symbol(9)]);
 
     text += "1. pose' = sum of s_k q_k' over the joints of a leg. With w = s_i x s_j the idle rates drop out:\n";
-    for (first, second) in [(Revolute, Revolute), (Prismatic, Revolute), (Revolute, Prismatic), (Prismatic, Prismatic)] {
+    for (first, second) in [(Revolute, Revolute), (Prismatic, Revolute), (Revolute, Prismatic), (Prismatic, Prismatic)]
+    {
         let screws = [joint_screw(first, &p, &u, &m), joint_screw(second, &q, &v, &m)];
         let w = reciprocal_wrench(&screws[0], &screws[1]);
         assert!(screws.iter().all(|screw| power(&w, screw) == Symbol::zero()));
-        text += &format!("   {}{}: w.s_i = 0 and w.s_j = 0, identically in all symbols\n", first.letter(), second.letter());
+        text +=
+            &format!("   {}{}: w.s_i = 0 and w.s_j = 0, identically in all symbols\n", first.letter(), second.letter());
     }
 
     text += "2. so  w.pose' = (w.s_a) q_a',  which is the claim. What w is:\n";

@@ -287,9 +287,9 @@ impl Velocity {
     ///
     /// Inputs are weighed as they are: where lengths and angles mix, their units matter.
     pub fn dexterity(&self, length: f64) -> f64 {
-        match self.input_inverse() {
-            Err(_) => 0.0,
-            Ok(inverse) => {
+        match (self.input_inverse(), self.pose_inverse()) {
+            (Err(_), _) | (_, Err(_)) => 0.0,
+            (Ok(inverse), Ok(_)) => {
                 let values = (inverse * self.weighed_pose_matrix(length)).singular_values();
                 let (low, high) = (values.min(), values.max());
                 if high.is_finite() && high > 0.0 { low / high } else { 0.0 }

@@ -316,7 +316,7 @@ pub(crate) fn path(
     let count = rows.len();
     let bar = std::io::stderr().is_terminal();
     let progress = |done: usize| {
-        if bar && (done % PROGRESS_ROWS == 0 || done == count) {
+        if bar && (done.is_multiple_of(PROGRESS_ROWS) || done == count) {
             let filled = PROGRESS_WIDTH * done / count.max(1);
             let (full, rest) = ("#".repeat(filled), ".".repeat(PROGRESS_WIDTH - filled));
             // A progress bar that cannot be shown is no reason to stop.
