@@ -122,7 +122,7 @@ fn crossings_of_every_family_are_of_type_2_and_on_the_exact_curve() {
             leg.links[1].at.y -= 0.375;
         }
         let phi = 0.375;
-        let heavy = family == "3-_R_RR" || family == "3-RR_R_";
+        let heavy = family == "3-RR_R_";
         let locus = if heavy { None } else { Some(robot.singularity_locus(phi).unwrap()) };
         let window = robot.plane_window(phi);
         for signs in robot.mode_names() {

@@ -21,14 +21,14 @@
 //! `P` is the leg's last pivot, `A` its base pivot, `D = P - A`, `d = |D|`, `n` the normal of the slider `e` or `g`, `S` the part of `D` along `n`.
 //! Where `D` is isotropic, `D·D = 0`, one sign of a row with factor `d²` vanishes by itself; these factors are removed by name.
 //!
-//! | three legs alike | degree | | degree |
-//! |---|---|---|---|
-//! | `R_P_R` | 2 | `R_R_R` | 2 |
-//! | `_P_RR` | 20 | `_R_RR` | 42 |
+//! | three legs alike | degree | | three legs alike | degree |
+//! |---|---|---|---|---|
+//! | `R_P_R`, `R_R_R` | 2 | | `PR_R_`, `_R_RP` | 6 |
+//! | `_R_PR`, `RP_R_`, with offset | 16 | | `_P_RP`, `PR_P_` | 1 |
+//! | `_P_RR`, `RR_P_` | 20 | | `P_R_R`, `R_R_P`, `_P_PR`, `P_P_R`, `R_P_P`, `RP_P_` | 0: the position does not matter |
+//! | `_R_RR`, `RR_R_` | 44 | | | |
 //!
-//! The other leg types are worked out, exactly, in the derivation `singularity_degrees`. Source for the degrees of 3-PRR and 3-RRR:
-//! Bonev and Gosselin (2001), "Singularity loci of planar parallel manipulators with revolute joints". What it cannot do: legs
-//! with several actuators or none.
+//! The derivation `singularity_degrees` finds each by exact elimination. What it cannot do: legs with several actuators or none.
 
 use nalgebra::Vector2;
 use thiserror::Error;
@@ -133,7 +133,7 @@ impl Manipulator {
     /// Where singularities of type 2 lie for a fixed orientation: one implicit curve for all working modes.
     ///
     /// **Proof**: exact for the model's `f64`s, with frames that the orientation turns rounded once. **Cost**: below a millisecond for 3-RPR, 0.1 s for 3-PRR, some
-    /// seconds for 3-RRR with its degree 42.
+    /// seconds for 3-RRR with its degree 44.
     ///
     /// # Errors
     /// An orientation that is not finite; a leg with several actuators or none.
