@@ -92,7 +92,7 @@ fn compare(seed: f64) -> f64 {
         .fold(0.0, f64::max)
 }
 
-fn main() {
+pub fn main() {
     print!("{}", document());
 }
 

@@ -71,7 +71,7 @@ pub fn document() -> String {
     text
 }
 
-fn main() {
+pub fn main() {
     print!("{}", document());
 }
 

@@ -10,10 +10,15 @@ use assur::{Dyad, Offset, Plan, System, Triad, eliminate, lift};
 
 type P = Poly<Rational>;
 
-fn main() {
-    for step in [claim, leading_coefficient, named_platforms, any_platform, open_platform, published_case] {
-        println!("{}\n", step());
-    }
+/// The document, checked step by step while it is made.
+pub fn document() -> String {
+    let steps = [claim, leading_coefficient, named_platforms, any_platform, open_platform, published_case];
+    steps.map(|step| step() + "\n\n").concat()
+}
+
+/// Prints the document.
+pub fn main() {
+    print!("{}", document());
 }
 
 fn claim() -> String {

@@ -63,7 +63,7 @@ fn general(kind: &str) -> Manipulator {
     Manipulator::new("", legs.collect()).expect("is sound")
 }
 
-fn main() {
+pub fn main() {
     print!("{}", document());
 }
 

@@ -84,14 +84,14 @@ fn compare(chain: &str, actuated: usize, seed: f64) -> f64 {
     let motion = |p: &Placement| Isometry2::new(p.at, p.direction.y.atan2(p.direction.x));
     let mut frame = motion(&leg.base);
     let mut frames = Vec::new();
-    for k in 0..3 {
+    for (k, &q) in joints.iter().enumerate() {
         frames.push(frame);
         frame *= match leg.joints[k] {
-            Revolute => Isometry2::rotation(joints[k]),
-            Prismatic => Isometry2::translation(joints[k], 0.0),
+            Revolute => Isometry2::rotation(q),
+            Prismatic => Isometry2::translation(q, 0.0),
         };
-        if k < 2 {
-            frame *= motion(&leg.links[k]);
+        if let Some(link) = leg.links.get(k) {
+            frame *= motion(link);
         }
     }
     // The platform's frame is the end of the leg, so the mark is its origin.
@@ -125,7 +125,7 @@ fn compare(chain: &str, actuated: usize, seed: f64) -> f64 {
     off_row.max(off_entry) / size
 }
 
-fn main() {
+pub fn main() {
     print!("{}", document());
 }
 

@@ -28,17 +28,15 @@ fn planted_leg(kind: &str, pose: &Pose, numbers: &[f64]) -> (Leg, [f64; 3]) {
         Placement::turned(1.5 + numbers[3], 0.5 * numbers[4], 1.0 + numbers[5]),
         Placement::turned(1.5 + numbers[6], 0.5 * numbers[7], 1.0 + numbers[8]),
     ];
-    let mut joints = [0.0; 3];
+    let joints = [9, 10, 11].map(|k: usize| numbers[k] * 3.0);
     let mut frame = motion(&leg.base);
-    for k in 0..3 {
-        let q = numbers[9 + k] * 3.0;
-        joints[k] = q;
+    for (k, &q) in joints.iter().enumerate() {
         frame *= match leg.joints[k] {
             JointKind::Revolute => Isometry2::rotation(q),
             JointKind::Prismatic => Isometry2::translation(q, 0.0),
         };
-        if k < 2 {
-            frame *= motion(&leg.links[k]);
+        if let Some(link) = leg.links.get(k) {
+            frame *= motion(link);
         }
     }
     let end = pose.isometry().inverse() * frame;

@@ -13,13 +13,11 @@ impl Jet {
         Self([value, 0.0, 0.0])
     }
     fn sine(self) -> Self {
-        let ([v, d, e], (s, c)) = (self.0, self.0[0].sin_cos());
-        let _ = v;
+        let ([_, d, e], (s, c)) = (self.0, self.0[0].sin_cos());
         Self([s, c * d, c * e - s * d * d])
     }
     fn cosine(self) -> Self {
-        let ([v, d, e], (s, c)) = (self.0, self.0[0].sin_cos());
-        let _ = v;
+        let ([_, d, e], (s, c)) = (self.0, self.0[0].sin_cos());
         Self([c, -s * d, -s * e - c * d * d])
     }
 }
@@ -67,13 +65,13 @@ impl Frame {
 fn pose_of(leg: &Leg, joints: &[Jet; 3]) -> Frame {
     let zero = Jet::constant(0.0);
     let mut frame = Frame { x: zero, y: zero, angle: zero }.placed(&leg.base);
-    for k in 0..3 {
+    for (k, &q) in joints.iter().enumerate() {
         frame = match leg.joints[k] {
-            JointKind::Revolute => frame.shifted(zero, zero, joints[k]),
-            JointKind::Prismatic => frame.shifted(joints[k], zero, zero),
+            JointKind::Revolute => frame.shifted(zero, zero, q),
+            JointKind::Prismatic => frame.shifted(q, zero, zero),
         };
-        if k < 2 {
-            frame = frame.placed(&leg.links[k]);
+        if let Some(link) = leg.links.get(k) {
+            frame = frame.placed(link);
         }
     }
     // Back from the leg's end to the platform's origin.

@@ -11,8 +11,86 @@ struct Derivation {
     document: fn() -> String,
 }
 
-/// The derivations.
-const DERIVATIONS: &[Derivation] = &[];
+#[path = "../../../derivations/acceleration_term.rs"]
+mod acceleration_term;
+#[path = "../../../derivations/charts.rs"]
+mod charts;
+#[path = "../../../derivations/degree_table.rs"]
+mod degree_table;
+#[path = "../../../derivations/leg_reductions.rs"]
+mod leg_reductions;
+#[path = "../../../derivations/prr_rows.rs"]
+mod prr_rows;
+#[path = "../../../derivations/rp_rp_rp_octic.rs"]
+mod rp_rp_rp_octic;
+#[path = "../../../derivations/singularity_degrees.rs"]
+mod singularity_degrees;
+#[path = "../../../derivations/triad_sextic.rs"]
+mod triad_sextic;
+#[path = "../../../derivations/velocity_row.rs"]
+mod velocity_row;
+
+/// Every derivation is a program of its own as well; here only its text is used.
+const _: [fn(); 9] = [
+    acceleration_term::main,
+    charts::main,
+    degree_table::main,
+    leg_reductions::main,
+    prr_rows::main,
+    rp_rp_rp_octic::main,
+    singularity_degrees::main,
+    triad_sextic::main,
+    velocity_row::main,
+];
+
+/// The derivations, in reading order.
+const DERIVATIONS: &[Derivation] = &[
+    Derivation {
+        name: "charts",
+        claim: "the circle of orientations in theta and in the half-angle, and why a half-turn is ordinary",
+        document: charts::document,
+    },
+    Derivation {
+        name: "triad_sextic",
+        claim: "the sextic of RR-RR-RR: closed form and Sylvester route are the same",
+        document: triad_sextic::document,
+    },
+    Derivation {
+        name: "degree_table",
+        claim: "how many assemblies each of the twenty triads has",
+        document: degree_table::document,
+    },
+    Derivation {
+        name: "rp_rp_rp_octic",
+        claim: "the octic of RP-RP-RP is a quartic, and half of that is a mirror image",
+        document: rp_rp_rp_octic::document,
+    },
+    Derivation {
+        name: "leg_reductions",
+        claim: "the 21 leg types and the dyads they leave when their driver is held",
+        document: leg_reductions::document,
+    },
+    Derivation {
+        name: "velocity_row",
+        claim: "the velocity row of every leg is the cross product of its idle joints' screws",
+        document: velocity_row::document,
+    },
+    Derivation {
+        name: "acceleration_term",
+        claim: "the quadratic term of the accelerations, for any leg and for 3-PRR",
+        document: acceleration_term::document,
+    },
+    Derivation {
+        name: "prr_rows",
+        claim: "the matrices of 3-PRR as printed in 1996 and as corrected",
+        document: prr_rows::document,
+    },
+    Derivation {
+        name: "singularity_degrees",
+        claim: "degrees of the curves of type 2 at a fixed orientation, for the 18 leg types",
+        document: singularity_degrees::document,
+    },
+];
 
 /// No derivation of this name.
 #[derive(Debug, thiserror::Error)]
