@@ -217,3 +217,29 @@ fn a_change_of_unit_scales_the_solutions_exactly() {
         }
     }
 }
+
+/// Two solutions with almost the same `t`: the eliminant has a near-double root, known to half its digits only, and each solution must
+/// still be found and counted once.
+#[test]
+fn solutions_that_nearly_share_a_root() {
+    type G = Poly<Gaussian<Integer>>;
+    let g = |re: i64, im: i64| G::constant(Gaussian::new(Integer::from(re), Integer::from(im)));
+    let [z, w, t] = [0, 1, 2].map(G::variable);
+    let radius = G::constant(Gaussian::new(Ring::power(&Integer::from(10), 30), Integer::ZERO));
+    let row = |c: [(i64, i64); 6]| {
+        let [a, b, d, e, f, h] = c.map(|(re, im)| g(re, im));
+        (a + b * t.clone()) * z.clone() + (d + e * t.clone()) * w.clone() + f + h * t.clone()
+    };
+    let system = System::new(["z", "w", "t"])
+        .with("circle", z.clone() * w.clone() - radius)
+        .with("L2", row([(3, 1), (-2, 5), (4, -7), (1, 6), (-8, 3), (2, 2)]))
+        .with("L3", row([(-1, 4), (6, -3), (2, 9), (-5, 1), (7, 7), (-3, 4)]));
+    let plan = Plan::new("t")
+        .resultant_formal("R1", ("L2", 1), ("L3", 1), "z")
+        .resultant_formal("R2", ("circle", 1), ("L2", 1), "z")
+        .resultant_formal("T", ("R1", 1), ("R2", 2), "w")
+        .remove_coefficient("T", "L2", ("z", 1), assur::eliminate::Power::Exactly(1));
+    let found = solved(&system, &plan);
+    assert_eq!(found.account.degree, 4);
+    assert_eq!(found.account.complex, 4, "{found:?}");
+}

@@ -4,19 +4,25 @@
 //! Floats are rings and not domains, so an elimination over floats does not compile. On these two
 //! stand polynomials in one variable ([`UPoly`]), in many ([`Poly`]), and on the unit circle ([`Trig`]).
 
+mod bracket;
 mod gaussian;
 mod gcd;
+mod interval;
 mod monomial;
 mod poly;
 mod rational;
 mod ring;
+mod short_trig;
 mod trig;
 mod upoly;
 
+pub use bracket::Bracket;
 pub use gaussian::Gaussian;
+pub use interval::Interval;
 pub use monomial::Monomial;
 pub use poly::Poly;
 pub use rational::{Integer, Rational, dyadic, integer_to_f64_scaled, nearest_f64, ratio_to_f64};
 pub use ring::{Domain, Ring};
+pub use short_trig::{SHORT_ORDER, ShortTrig};
 pub use trig::Trig;
 pub use upoly::UPoly;

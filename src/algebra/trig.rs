@@ -100,8 +100,18 @@ impl<R: Ring> Trig<R> {
         self.homogeneous(order, &c, &s, &w, |x| UPoly::constant(Gaussian::real(x.clone())))
     }
 
-    /// `w^order · T(c/w, s/w)`.
-    fn homogeneous<S: Ring>(&self, order: usize, c: &S, s: &S, w: &S, embed: impl Fn(&R) -> S) -> S {
+    /// `w^order · T(c/w, s/w)` in any ring: the value at a cosine and a sine given as fractions, without dividing.
+    ///
+    /// `order` is at least [`Trig::order`].
+    ///
+    /// ```
+    /// use assur::algebra::{Integer, Ring, Trig};
+    /// // 3 cos phi + 1 at the angle of the 3-4-5 triangle is 14/5.
+    /// let t = Trig::from_int(3) * Trig::cosine() + Trig::<Integer>::one();
+    /// let [c, s, w] = [3, 4, 5].map(Integer::from);
+    /// assert_eq!(t.homogeneous(1, &c, &s, &w, Clone::clone), Integer::from(14));
+    /// ```
+    pub fn homogeneous<S: Ring>(&self, order: usize, c: &S, s: &S, w: &S, embed: impl Fn(&R) -> S) -> S {
         let form = |p: &UPoly<R>, degree: usize| {
             let mut sum = S::zero();
             let mut w_power = w.power((degree + 1 - p.coefficients().len()) as u32);

@@ -20,6 +20,7 @@
 //! ```
 
 mod check;
+mod claims;
 mod error;
 mod locus_report;
 mod model;
@@ -32,10 +33,11 @@ mod triad_file;
 mod write;
 
 pub use check::{CheckReport, LegReport, RemarkReport};
+pub use claims::{ClaimReport, ClaimedPoses, MissingReport, Subject, VerifyReport};
 pub use error::{FieldProblem, FileError, Format};
 pub use locus_report::{SingularitiesReport, TracedModes, map_csv};
 pub use model::{AngleUnit, ModelFile};
 pub use motion_report::{InverseReport, Motion, VelocityReport};
 pub use path_file::{PathFileError, PathReport, parse_path, read_path};
-pub use report::{ForwardReport, ModeReport};
+pub use report::{CertificateReport, ForwardReport, ModeReport};
 pub use triad_file::{DyadEntry, TriadFile, read_triad};

@@ -56,6 +56,12 @@ impl<'a> Field<'a> {
         Ok(table)
     }
 
+    /// The table, whatever keys it has.
+    pub(super) fn open_table(&self) -> Result<Table<'a>, FileError> {
+        let Tree::Table(entries) = self.tree else { return Err(self.not("a table")) };
+        Ok(Table { entries, file: self.file, place: self.place.clone() })
+    }
+
     /// The items of a list.
     pub(super) fn list(&self, expected: &str) -> Result<Vec<Field<'a>>, FileError> {
         let Tree::List(items) = self.tree else { return Err(self.not(expected)) };

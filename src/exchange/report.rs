@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::triad_file::TriadFile;
 use crate::certify::Verdict;
-use crate::linkage::{Assemblies, AssemblyMode, Status, Triad};
+use crate::linkage::{Assemblies, AssemblyMode, Certificate, Status, Triad};
 use crate::manipulator::{AssemblyModes, ManipulatorMode, Violation};
 use crate::solve::Account;
 
@@ -31,6 +31,10 @@ pub struct ForwardReport {
     self_motions: Vec<SelfMotionReport>,
     /// What is special about the group.
     pub special: Vec<&'static str>,
+    near: Vec<NearReport>,
+    /// What a proof came to, where one was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub certificate: Option<CertificateReport>,
     polynomial: Option<PolynomialReport>,
     /// The length that residuals are measured against.
     pub size: f64,
@@ -45,13 +49,65 @@ pub struct ModeReport {
     pub multiplicity: usize,
     /// Largest closure error over the largest length.
     pub residual: f64,
-    proof: &'static str,
+    /// `proven`, `refuted`, `undecided` or `not_asked`.
+    pub proof: &'static str,
+    /// A box `[[lo, hi], ..]` of `[x, y, phi]` that holds this mode and no other, where a proof was asked for.
+    #[serde(rename = "box", skip_serializing_if = "Option::is_none")]
+    pub pose_box: Option<[[f64; 2]; 3]>,
     /// Joint values, leg by leg; `null` for a triad.
     pub joints: Option<Vec<[f64; 3]>>,
     /// Working-mode signs; `null` for a triad.
     pub signs: Option<String>,
     det_a: f64,
     violations: Vec<ViolationReport>,
+}
+
+/// A special shape that the group does not have, exactly, but nearly.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct NearReport {
+    special: &'static str,
+    distance: f64,
+}
+
+/// What is proved of an answer as a whole.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CertificateReport {
+    /// `6 of degree 6: 4 real proved, 2 non-real proved, complete`.
+    pub summary: String,
+    /// Whether every mode is proved and no other exists.
+    pub complete: bool,
+    /// How many boxes meet another, since `f64` cannot tell their modes apart.
+    pub indistinct: usize,
+    /// Whether an RP leg's `d·|v|` was rounded for the count.
+    pub rounded_offset: bool,
+    /// What the proof is about.
+    pub about: &'static str,
+}
+
+/// What every proof is about.
+const ABOUT: &str =
+    "the locked triad whose numbers are exactly the f64s printed; sines and cosines were rounded once, on locking";
+
+impl From<&Certificate> for CertificateReport {
+    fn from(certificate: &Certificate) -> Self {
+        Self {
+            summary: certificate.to_string(),
+            complete: certificate.complete,
+            indistinct: certificate.indistinct,
+            rounded_offset: certificate.rounded_offset,
+            about: ABOUT,
+        }
+    }
+}
+
+/// A verdict as reports write it.
+pub(super) fn proof(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::NotAsked => "not_asked",
+        Verdict::Proven => "proven",
+        Verdict::Refuted => "refuted",
+        Verdict::Undecided => "undecided",
+    }
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -152,6 +208,12 @@ impl ForwardReport {
                 .map(|motion| SelfMotionReport { phi: motion.phi, real: motion.real })
                 .collect(),
             special: answer.special.iter().map(|special| special.name()).collect(),
+            near: answer
+                .near
+                .iter()
+                .map(|near| NearReport { special: near.special.name(), distance: near.distance })
+                .collect(),
+            certificate: answer.certificate.as_ref().map(CertificateReport::from),
             polynomial: answer.polynomial.as_ref().map(|polynomial| PolynomialReport {
                 variable: "theta",
                 from: polynomial.from,
@@ -176,12 +238,8 @@ impl From<&AssemblyMode> for ModeReport {
             pose: [mode.pose.x, mode.pose.y, mode.pose.phi],
             multiplicity: mode.multiplicity,
             residual: mode.residual,
-            proof: match mode.proof {
-                Verdict::NotAsked => "not_asked",
-                Verdict::Proven => "proven",
-                Verdict::Refuted => "refuted",
-                Verdict::Undecided => "undecided",
-            },
+            proof: proof(mode.proof),
+            pose_box: mode.pose_box,
             joints: None,
             signs: None,
             det_a: mode.det_a,

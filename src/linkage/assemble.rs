@@ -25,7 +25,7 @@ use super::group::{Dyad, Pose, Triad};
 use super::numbers::{LocalLegs, TriadNumbers};
 use super::pinned::PinnedDyad;
 use super::place::{Placed, Solution, place, place_pinned};
-use super::special::special_shapes;
+use super::special::{near_misses, special_shapes};
 use super::triad::{LegNumbers, leg_row, triad_rows};
 use super::vanishing::motions;
 use super::verify::{Placement, complex_residual, determinant, pinned_determinant, residual, size};
@@ -146,6 +146,8 @@ impl<'a> Gathering<'a> {
                 rejections: Vec::new(),
                 self_motions: Vec::new(),
                 special: special_shapes(legs, numbers),
+                near: near_misses(numbers),
+                certificate: None,
                 polynomial: None,
                 size: 0.0,
                 origin: Vector2::new(a0.re, a0.im),
@@ -327,7 +329,8 @@ impl<'a> Gathering<'a> {
         let sound = residual <= CLOSURE_GUARD && origin.is_finite();
         if sound {
             let pose = Pose::new(origin.re, origin.im, phi);
-            self.out.modes.push(AssemblyMode { pose, multiplicity, residual, det_a, proof: Verdict::NotAsked });
+            let proof = Verdict::NotAsked;
+            self.out.modes.push(AssemblyMode { pose, multiplicity, residual, det_a, proof, pose_box: None });
             self.out.account.real += multiplicity;
             if multiplicity > 1 {
                 self.out.special.push(Special::DoubleRoot);

@@ -4,7 +4,9 @@ use nalgebra::Vector2;
 use num_complex::Complex64;
 use thiserror::Error;
 
+use super::certificate::Certificate;
 use super::group::Pose;
+use super::special::NearMiss;
 use crate::certify::Verdict;
 use crate::solve::Account;
 
@@ -32,6 +34,10 @@ pub struct AssemblyMode {
     pub det_a: f64,
     /// Whether a proof was asked for and what it came to.
     pub proof: Verdict,
+    /// `[x, y, phi]`, each from lower to upper bound: a box that holds this mode and no other; `None` where no proof was asked for.
+    ///
+    /// The angle may go on beyond pi.
+    pub pose_box: Option<[[f64; 2]; 3]>,
 }
 
 /// A solution of the closure equations that is not a real pose.
@@ -152,6 +158,10 @@ pub struct Assemblies {
     pub self_motions: Vec<SelfMotion>,
     /// What is special, sorted, each once.
     pub special: Vec<Special>,
+    /// What is exactly not special but within 1e-12 of it.
+    pub near: Vec<NearMiss>,
+    /// What a proof came to, where one was asked for.
+    pub certificate: Option<Certificate>,
     /// The eliminant; `None` where the orientation is given (a PP leg) and there is nothing to eliminate for.
     pub polynomial: Option<ThetaPolynomial>,
     /// The length residuals are measured against: the group's largest.

@@ -61,8 +61,13 @@ pub fn constraint_system<R: Domain>(
     names: [usize; 3],
 ) -> System<Gaussian<R>> {
     let mut system = System::new(["u", "v", "theta"]);
-    for (leg, name) in legs.iter().zip(names) {
-        system.add(label(leg, name), leg_polynomial(leg));
+    for (number, (leg, name)) in legs.iter().zip(names).enumerate() {
+        let polynomial = match leg {
+            // The reference circle holds no theta to be cleared of.
+            LegNumbers::Circle { length, .. } if number == 0 => reference_circle(length),
+            _ => leg_polynomial(leg),
+        };
+        system.add(label(leg, name), polynomial);
     }
     for (rotation, name) in rotations.iter().zip(&names[legs.len()..]) {
         let scale = Poly::constant(Gaussian::real(rotation.scale.clone()));
@@ -72,7 +77,13 @@ pub fn constraint_system<R: Domain>(
     system
 }
 
-/// The polynomial of one leg; variables 0, 1, 2 are `u`, `v`, `theta`.
+/// `u v - l²`.
+fn reference_circle<R: Domain>(length: &R) -> Poly<Gaussian<R>> {
+    let square = Gaussian::real(length.clone() * length.clone());
+    Poly::variable(0) * Poly::variable(1) - Poly::constant(square)
+}
+
+/// The polynomial of one leg other than the reference circle; variables 0, 1, 2 are `u`, `v`, `theta`.
 fn leg_polynomial<R: Domain>(leg: &LegNumbers<R>) -> Poly<Gaussian<R>> {
     let [u, v, theta] = [0, 1, 2].map(Poly::<Gaussian<R>>::variable);
     let number = |z: &Gaussian<R>| Poly::constant(z.clone());
@@ -80,9 +91,6 @@ fn leg_polynomial<R: Domain>(leg: &LegNumbers<R>) -> Poly<Gaussian<R>> {
     match leg {
         LegNumbers::Circle { alpha, beta, length } => {
             let square = Poly::constant(Gaussian::real(length.clone() * length.clone()));
-            if alpha.is_zero() && beta.is_zero() {
-                return u * v - square;
-            }
             let outward = u + theta.clone() * number(beta) - number(alpha);
             let formal = theta.clone() * v + conjugate(beta) - theta.clone() * conjugate(alpha);
             outward * formal - theta * square
@@ -279,6 +287,16 @@ mod tests {
                 assert_eq!(p, q, "{} seed {seed}", triad.name());
             }
         }
+    }
+
+    #[test]
+    fn a_leg_given_twice_loses_its_row_and_nothing_else() {
+        let leg = |length| Dyad::RR { a: Vector2::new(1.0, 2.0), b: Vector2::new(3.0, -1.0), length };
+        let other = dyad("RR", 5);
+        let twice = Triad::new([leg(2.0), leg(2.0), other]).expect("valid");
+        assert!(twice.eliminant().expect("the plan suits it").polynomial.vanishes());
+        let contradictory = Triad::new([leg(2.0), leg(3.0), other]).expect("valid");
+        assert!(!contradictory.eliminant().expect("the plan suits it").polynomial.vanishes());
     }
 
     #[test]

@@ -46,6 +46,8 @@ pub(super) struct Part {
     pub multiplicity: usize,
     /// What lies above each of these roots.
     pub fibre: Fibre,
+    /// The chart of `in_chart`.
+    pub chart: Chart,
 }
 
 impl Chart {
@@ -54,6 +56,11 @@ impl Chart {
         let order = f.order();
         let tau = (0..).find(|&tau| f.half_angle_about(order, tau).degree() == Some(2 * order));
         Self { tau: tau.expect("a polynomial has finitely many roots and there are infinitely many charts") }
+    }
+
+    /// `tan(phi0/2)` of the chart's origin.
+    pub fn tau(self) -> i64 {
+        self.tau
     }
 
     /// `f` in this chart; its roots at `theta = 0` and infinity, the factors `1 + t²`, removed by using its exact order.
@@ -90,7 +97,7 @@ pub(super) fn parts(t: &Trig<Integer>, rows: &Rows<Trig<Integer>>) -> Vec<Part> 
         for (in_chart, fibre) in split_by_fibre(factor, chart, rows) {
             if in_chart.degree().unwrap_or(0) > 0 {
                 let in_theta = chart.to_theta(&in_chart);
-                out.push(Part { in_chart, in_theta, multiplicity, fibre });
+                out.push(Part { in_chart, in_theta, multiplicity, fibre, chart });
             }
         }
     }
@@ -100,7 +107,8 @@ pub(super) fn parts(t: &Trig<Integer>, rows: &Rows<Trig<Integer>>) -> Vec<Part> 
 /// The roots of `t` in square-free parts, where one and the same lies above all of them.
 pub(super) fn parts_alike(t: &Trig<Integer>, fibre: Fibre) -> Vec<Part> {
     let chart = Chart::without_infinity(t);
-    let part = |(in_chart, multiplicity)| Part { in_theta: chart.to_theta(&in_chart), in_chart, multiplicity, fibre };
+    let part =
+        |(in_chart, multiplicity)| Part { in_theta: chart.to_theta(&in_chart), in_chart, multiplicity, fibre, chart };
     chart.polynomial(t).square_free().into_iter().map(part).collect()
 }
 

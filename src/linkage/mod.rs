@@ -5,15 +5,20 @@
 
 mod assemble;
 mod assemblies;
+mod certificate;
 mod constraint;
 mod dyad;
+mod exact_box;
 mod fibre;
 mod given_orientation;
 mod group;
+mod judge;
+mod loop_box;
 mod name;
 mod numbers;
 mod pinned;
 mod place;
+mod prove;
 mod slider_quadrics;
 mod special;
 mod triad;
@@ -23,10 +28,14 @@ mod verify;
 pub use assemblies::{
     Assemblies, AssemblyMode, ComplexMode, Rejection, RejectionReason, SelfMotion, Special, Status, ThetaPolynomial,
 };
+pub use certificate::Certificate;
 pub use constraint::{RotationNumbers, constraint_system, sylvester_plan};
 pub use dyad::{Guide, TwoLinkAssemblies, TwoLinkAssembly, TwoLinkError, TwoLinkGroup, TwoLinkSpecial};
 pub use group::{Dyad, Offset, Pose, Triad, TriadError, triad_degree};
+pub use judge::{Claim, Judgement};
 pub use name::{DyadKind, GroupName, GroupNameError};
 pub use pinned::{PinnedDyad, PinnedDyadError};
+pub use prove::{ProofRoute, ProvedMode, ProvedModes};
 pub use slider_quadrics::{SliderPose, SliderQuadricsError, SliderSolutions, rp_rp_rp_quartic};
+pub use special::NearMiss;
 pub use triad::{LegNumbers, Row, Rows, consistency, leg_row, triad_rows};

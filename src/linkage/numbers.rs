@@ -127,6 +127,17 @@ fn exact_delta(offset: Offset, v: &Vector2<f64>) -> Rational {
     }
 }
 
+/// Whether a leg's `delta = d·|v|` had to be rounded.
+pub(super) fn has_rounded_offset(legs: &[Dyad]) -> bool {
+    legs.iter().any(|leg| match leg {
+        Dyad::RP { v, offset: Offset::Distance(d), .. } if *d != 0.0 => {
+            let [x, y] = point(v);
+            rational_root(&(&x * &x + &y * &y)).is_none()
+        }
+        _ => false,
+    })
+}
+
 /// `d·|v|` rounded to `f64`; as a rational where that overflows.
 fn number_or_product(d: f64, v: &Vector2<f64>) -> Rational {
     let length = v.x.hypot(v.y);

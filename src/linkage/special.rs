@@ -4,7 +4,7 @@ use super::assemblies::Special;
 use super::group::Dyad;
 use super::numbers::TriadNumbers;
 use super::triad::LegNumbers;
-use crate::algebra::{Domain, Gaussian, Integer};
+use crate::algebra::{Domain, Gaussian, Integer, ratio_to_f64};
 
 /// The special shapes of a triad, in no order, each once.
 pub(super) fn special_shapes(legs: &[Dyad], numbers: &TriadNumbers) -> Vec<Special> {
@@ -69,5 +69,97 @@ pub(super) fn special_shapes(legs: &[Dyad], numbers: &TriadNumbers) -> Vec<Speci
     let translating = legs.iter().filter(|leg| matches!(leg, Dyad::PP { .. })).count();
     let sliders_parallel = parallel(on_base.collect()) || parallel(on_platform.collect()) || translating > 1;
     note(sliders_parallel, Special::ParallelSliders);
+    out
+}
+
+/// A special shape that a triad does not have, exactly, but is within 1e-12 of.
+///
+/// Decimals such as 0.1 are not what they look like in binary: a platform drawn similar to its base is often not, and its answer is not that of similar
+/// platforms. This says so, with the distance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NearMiss {
+    /// The shape missed.
+    pub special: Special,
+    /// By how much: relative to the lengths compared, or the sine of an angle. Never 0.
+    pub distance: f64,
+}
+
+/// Closer than this, a shape is worth a word. Far above what rounding decimals to `f64` does, far below any tolerance of manufacture.
+const NEAR: f64 = 1e-12;
+
+/// The special shapes nearly had.
+pub(super) fn near_misses(numbers: &TriadNumbers) -> Vec<NearMiss> {
+    let mut out: Vec<NearMiss> = Vec::new();
+    let mut note = |special: Special, miss_squared: Integer, scale_squared: Integer| {
+        if miss_squared.is_zero() || scale_squared.is_zero() {
+            return;
+        }
+        let distance = ratio_to_f64(&miss_squared, &scale_squared, 0).sqrt();
+        if distance < NEAR {
+            match out.iter_mut().find(|near| near.special == special) {
+                Some(near) => near.distance = near.distance.min(distance),
+                None => out.push(NearMiss { special, distance }),
+            }
+        }
+    };
+    let less = |p: &Gaussian<Integer>, q: &Gaussian<Integer>| p.clone() - q.clone();
+    let (mut circles, mut base, mut platform, mut on_base, mut on_platform) = (vec![], vec![], vec![], vec![], vec![]);
+    for leg in &numbers.legs {
+        match leg {
+            LegNumbers::Circle { alpha, beta, length } => {
+                circles.push((alpha, beta, length));
+                base.push(alpha);
+                platform.push(beta);
+            }
+            LegNumbers::Line { beta, normal, .. } => {
+                platform.push(beta);
+                on_base.push(normal);
+            }
+            LegNumbers::PlatformLine { alpha, normal, .. } => {
+                base.push(alpha);
+                on_platform.push(normal);
+            }
+        }
+    }
+    let pairs = |n: usize| (0..n).flat_map(move |i| (0..i).map(move |j| (j, i)));
+    let spans =
+        |points: &[&Gaussian<Integer>]| pairs(points.len()).map(|(i, j)| less(points[i], points[j]).norm_sqr()).max();
+    let size = spans(&base).into_iter().chain(spans(&platform)).chain(circles.iter().map(|c| c.2 * c.2)).max();
+    let size = size.unwrap_or(Integer::ZERO);
+    for (_, _, length) in &circles {
+        note(Special::ZeroLength, *length * *length, size.clone());
+    }
+    for (i, j) in pairs(circles.len()) {
+        note(Special::CoincidentPivots, less(circles[i].0, circles[j].0).norm_sqr(), size.clone());
+        note(Special::CoincidentPivots, less(circles[i].1, circles[j].1).norm_sqr(), size.clone());
+    }
+    if let [p, q, r] = circles[..] {
+        let (a, b) = ([less(q.0, p.0), less(r.0, p.0)], [less(q.1, p.1), less(r.1, p.1)]);
+        let mismatch = (a[0].clone() * b[1].clone() - a[1].clone() * b[0].clone()).norm_sqr();
+        let scale = (a[0].norm_sqr() * b[1].norm_sqr()).max(a[1].norm_sqr() * b[0].norm_sqr());
+        let similar = ratio_to_f64(&mismatch, &scale, 0).sqrt() < NEAR;
+        note(Special::SimilarPlatforms, mismatch, scale);
+        let unequal = [0, 1].map(|k: usize| a[k].norm_sqr() - b[k].norm_sqr());
+        let unequal = unequal.into_iter().max_by_key(|d| d * d).unwrap_or(Integer::ZERO);
+        let sides = a.iter().map(Gaussian::norm_sqr).max().unwrap_or(Integer::ZERO);
+        if similar {
+            // Differences of squares are twice those of lengths.
+            note(Special::CongruentPlatforms, &unequal * &unequal, Integer::from(4) * &sides * &sides);
+        }
+    }
+    for (special, points) in [(Special::CollinearBase, &base), (Special::CollinearPlatform, &platform)] {
+        if let [p, q, r] = points[..] {
+            let (u, v) = (less(q, p), less(r, p));
+            let cross = u.cross(&v);
+            note(special, &cross * &cross, u.norm_sqr() * v.norm_sqr());
+        }
+    }
+    for normals in [&on_base, &on_platform] {
+        for (i, j) in pairs(normals.len()) {
+            let cross = normals[i].cross(normals[j]);
+            note(Special::ParallelSliders, &cross * &cross, normals[i].norm_sqr() * normals[j].norm_sqr());
+        }
+    }
+    out.sort_by_key(|near| near.special);
     out
 }

@@ -182,7 +182,7 @@ pub fn consistency<R: Ring>(legs: &[LegNumbers<R>; 3], c: &R, s: &R) -> R {
 }
 
 /// `T` from the rows; see [`consistency`].
-fn rows_consistency<R: Ring>(rows: &Rows<R>) -> R {
+pub(super) fn rows_consistency<R: Ring>(rows: &Rows<R>) -> R {
     match rows {
         Rows::Circle { radius, rows: [second, third] } => {
             let mismatch = second.mismatch(third);

@@ -60,8 +60,9 @@ fn wrench(leg: &LegNumbers<f64>, at: Placement) -> [f64; 3] {
         LegNumbers::Circle { alpha, beta, length } => {
             let joint = at.u + at.rotation * complex(beta);
             let along = joint - complex(alpha);
-            // What rounding leaves of a length of zero points anywhere.
-            (if *length > 0.0 { along / along.norm() } else { Complex64::ZERO }, joint)
+            let distance = along.norm();
+            // What rounding leaves of a length of zero points anywhere; of a length below rounding it may leave nothing.
+            (if *length > 0.0 && distance > 0.0 { along / distance } else { Complex64::ZERO }, joint)
         }
         LegNumbers::Line { beta, normal, .. } => (complex(normal), at.u + at.rotation * complex(beta)),
         LegNumbers::PlatformLine { alpha, normal, .. } => (at.rotation * complex(normal), complex(alpha)),

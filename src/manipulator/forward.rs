@@ -86,11 +86,56 @@ impl Manipulator {
     /// ```
     pub fn forward(&self, inputs: &[f64]) -> Result<AssemblyModes, LockError> {
         let locked = self.lock(inputs)?;
-        let mut group = match &locked {
+        let group = match &locked {
             LockedGroup::Triad(triad) => triad.assemble(),
             LockedGroup::Pinned(pinned) => pinned.assemble(),
             LockedGroup::Placed(pose) => placed(*pose),
         };
+        self.with_joints(inputs, locked, group)
+    }
+
+    /// Every assembly mode for these actuator values, each with a box that holds it and no other, and a certificate for the whole.
+    ///
+    /// As [`Manipulator::forward`], with the proof of [`Triad::certify`]. It is a theorem about the locked triad, whose numbers are `f64`s: sines and
+    /// cosines of inputs and of the model's angles were rounded once, on locking, and are data from there on. A slider's
+    /// direction can be given exactly, as a vector in place of an angle.
+    ///
+    /// # Errors
+    /// As [`Manipulator::forward`].
+    ///
+    /// ```
+    /// use assur::{Leg, Manipulator, Verdict};
+    /// let robot = Manipulator::new("3-RPR", vec![
+    ///     Leg::rpr([0.0, 0.0], [0.0, 0.0]),
+    ///     Leg::rpr([15.91, 0.0], [17.045, 0.0]),
+    ///     Leg::rpr([0.0, 10.0], [13.2389, 16.0929]),
+    /// ])?;
+    /// let answer = robot.certify(&[14.98, 15.38, 12.0])?;
+    /// assert!(answer.modes.iter().all(|m| m.mode.proof == Verdict::Proven));
+    /// assert_eq!(answer.group.certificate.unwrap().to_string(), "6 of degree 6: 6 real proved, 0 non-real proved, complete");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn certify(&self, inputs: &[f64]) -> Result<AssemblyModes, LockError> {
+        let locked = self.lock(inputs)?;
+        let group = match &locked {
+            LockedGroup::Triad(triad) => triad.certify(),
+            LockedGroup::Pinned(pinned) => pinned.certify(),
+            LockedGroup::Placed(pose) => {
+                let mut group = placed(*pose);
+                group.certify_given();
+                group
+            }
+        };
+        self.with_joints(inputs, locked, group)
+    }
+
+    /// The modes of a group with all joints read off.
+    fn with_joints(
+        &self,
+        inputs: &[f64],
+        locked: LockedGroup,
+        mut group: Assemblies,
+    ) -> Result<AssemblyModes, LockError> {
         let legs = self.locked_legs(inputs)?;
         let held = self.held(inputs);
         let mut modes = Vec::new();
@@ -187,7 +232,8 @@ fn scaled(account: Account, factor: usize) -> Account {
 
 /// The answer where one leg places the platform.
 fn placed(pose: crate::linkage::Pose) -> Assemblies {
-    let mode = AssemblyMode { pose, multiplicity: 1, residual: 0.0, det_a: 1.0, proof: Verdict::NotAsked };
+    let mode =
+        AssemblyMode { pose, multiplicity: 1, residual: 0.0, det_a: 1.0, proof: Verdict::NotAsked, pose_box: None };
     Assemblies {
         status: Status::Complete,
         modes: vec![mode],
@@ -196,6 +242,8 @@ fn placed(pose: crate::linkage::Pose) -> Assemblies {
         rejections: Vec::new(),
         self_motions: Vec::new(),
         special: Vec::new(),
+        near: Vec::new(),
+        certificate: None,
         polynomial: None,
         size: 0.0,
         origin: nalgebra::Vector2::zeros(),

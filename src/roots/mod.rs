@@ -3,11 +3,13 @@
 //! Rough complex roots come from the eigenvalues of a balanced companion matrix ([`companion_roots`]); for polynomials with exact
 //! coefficients they are polished to any number of bits ([`polish_roots`]) and the real ones are counted ([`isolate_real_roots`]).
 
+mod circle;
 mod companion;
 mod isolate;
 mod locate;
 mod polish;
 
+pub use circle::{CountedRoots, count_on_circle};
 pub use companion::{PolynomialRoots, RootsError, companion_roots, companion_roots_real};
 pub use isolate::{Isolation, isolate_real_roots};
 pub use locate::{CircleRoot, FIRST_BITS, MAX_BITS, NotLocated, locate_on_circle};

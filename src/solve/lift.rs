@@ -57,6 +57,9 @@ const CORANK: f64 = 1e-6;
 const COMMON_ROOT: f64 = 1e-3;
 /// A root of a fibre this much smaller than its largest may be zero, rounded (heuristic; refused later if it is not).
 const ROUNDED_TO_ZERO: f64 = 1e-9;
+/// Roots closer than this, relative, are lifted together: rounding moves a near-double root by up to 1e-8, a near-triple one by 1e-5
+/// (heuristic).
+const CLUSTERED: f64 = 1e-5;
 /// Solutions above one root closer than this, relative, are one (heuristic).
 const MERGED: f64 = 1e-6;
 /// A Jacobian with a smaller ratio of singular values belongs to a multiple solution, where Newton gives half the digits (heuristic).
@@ -110,8 +113,14 @@ pub fn lift<C: ToComplex>(
         Outcome::Roots { at_infinity } => {
             account.at_infinity = *at_infinity;
             let fibres = Fibres::new(system, plan, eliminant)?;
-            let roots = numeric_roots(eliminant)?;
-            let lifted: Vec<(Vec<Vec<Complex64>>, bool)> = roots.iter().map(|&(root, _)| fibres.above(root)).collect();
+            let clusters = clusters(numeric_roots(eliminant)?);
+            let lifted: Vec<(Vec<Vec<Complex64>>, bool)> = (clusters.iter())
+                .map(|cluster| {
+                    let (candidates, free): (Vec<_>, Vec<_>) =
+                        cluster.roots.iter().map(|&root| fibres.above(root)).unzip();
+                    (candidates.concat(), free.contains(&true))
+                })
+                .collect();
             let usual = |v: usize| {
                 let mut sizes: Vec<f64> =
                     lifted.iter().flat_map(|(found, _)| found).map(|values| values[v].norm()).collect();
@@ -120,10 +129,11 @@ pub fn lift<C: ToComplex>(
             };
             let floors: Vec<f64> = (0..system.variables().len()).map(|v| SMALLEST * usual(v)).collect();
             for (k, (candidates, free)) in lifted.into_iter().enumerate() {
-                let (root, multiplicity) = roots[k];
+                let Cluster { ref roots, multiplicity } = clusters[k];
+                let root = roots[0];
                 let nearest_is_k = |z: Complex64| {
-                    let distance = |&(r, _): &(Complex64, usize)| (r - z).norm();
-                    roots.iter().all(|other| distance(other) >= distance(&roots[k]))
+                    let here = clusters[k].distance(z);
+                    clusters.iter().all(|other| other.distance(z) >= here)
                 };
                 let refined = candidates.into_iter().filter_map(|values| fibres.refine(values, &floors, multiplicity));
                 let mut found: Vec<Refined> = Vec::new();
@@ -161,6 +171,36 @@ pub fn lift<C: ToComplex>(
     }
     assert!(account.adds_up(), "every root of the eliminant is accounted for: {account:?}");
     Ok(Solutions { variables: system.variables().to_vec(), solutions, rejected, outcome, account })
+}
+
+/// Roots so close to each other that floats cannot tell which of them a solution belongs to. They are lifted and counted together:
+/// poses that nearly share a value of the variable come from an eliminant that is known there to half its digits.
+struct Cluster {
+    roots: Vec<Complex64>,
+    multiplicity: usize,
+}
+
+impl Cluster {
+    fn distance(&self, z: Complex64) -> f64 {
+        self.roots.iter().map(|root| (root - z).norm()).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Groups roots with their multiplicities by distance.
+fn clusters(roots: Vec<(Complex64, usize)>) -> Vec<Cluster> {
+    let mut clusters: Vec<Cluster> = Vec::new();
+    for (root, multiplicity) in roots {
+        let mut joined = Cluster { roots: vec![root], multiplicity };
+        let near = |cluster: &Cluster| cluster.distance(root) <= CLUSTERED * root.norm();
+        let (touching, apart): (Vec<_>, Vec<_>) = clusters.into_iter().partition(near);
+        for cluster in touching {
+            joined.multiplicity += cluster.multiplicity;
+            joined.roots.extend(cluster.roots);
+        }
+        clusters = apart;
+        clusters.push(joined);
+    }
+    clusters
 }
 
 /// The distinct roots of the eliminant with their exact multiplicities.

@@ -148,6 +148,24 @@ pub(crate) enum Command {
         #[command(flatten)]
         asked: Asked,
     },
+    /// Holds a report's poses, ours or another program's, against what can be proved.
+    #[command(
+        after_help = "REPORT: JSON or TOML with \"inputs\" and \"modes\" (each with a \"pose\") or \"poses\", a list of [x, y, phi]; radians.\n\
+        Example:  assur verify report.json --model examples/3-rpr.toml"
+    )]
+    Verify {
+        /// The report; - is standard input.
+        report: PathBuf,
+        /// The model file or triad file the report is about.
+        #[arg(long, value_name = "MODEL")]
+        model: PathBuf,
+        /// How far a claimed pose may be from the truth: radians, and displacements over the mechanism's size.
+        #[arg(long, default_value_t = 1e-6, value_name = "T")]
+        tolerance: f64,
+        /// Prints one JSON document.
+        #[arg(long)]
+        json: bool,
+    },
     /// Prints a derivation worked through, or lists them.
     #[command(after_help = "Example:  assur derive --list")]
     Derive {
@@ -178,6 +196,9 @@ pub(crate) struct Asked {
     /// Prints the eliminant too: its zeros e^(i phi) are the orientations.
     #[arg(long)]
     pub(crate) polynomial: bool,
+    /// Proves the answer: a box around every mode, a theorem about the whole.
+    #[arg(long)]
+    pub(crate) certify: bool,
     /// Draws all modes into an SVG file.
     #[arg(long, value_name = "FILE")]
     pub(crate) svg: Option<PathBuf>,

@@ -17,6 +17,8 @@ mod acceleration_term;
 mod charts;
 #[path = "../../../derivations/degree_table.rs"]
 mod degree_table;
+#[path = "../../../derivations/filter_bound.rs"]
+mod filter_bound;
 #[path = "../../../derivations/leg_reductions.rs"]
 mod leg_reductions;
 #[path = "../../../derivations/prr_rows.rs"]
@@ -31,10 +33,11 @@ mod triad_sextic;
 mod velocity_row;
 
 /// Every derivation is a program of its own as well; here only its text is used.
-const _: [fn(); 9] = [
+const _: [fn(); 10] = [
     acceleration_term::main,
     charts::main,
     degree_table::main,
+    filter_bound::main,
     leg_reductions::main,
     prr_rows::main,
     rp_rp_rp_octic::main,
@@ -89,6 +92,11 @@ const DERIVATIONS: &[Derivation] = &[
         name: "singularity_degrees",
         claim: "degrees of the curves of type 2 at a fixed orientation, for the 18 leg types",
         document: singularity_degrees::document,
+    },
+    Derivation {
+        name: "filter_bound",
+        claim: "when floating point may say how many assembly modes there are",
+        document: filter_bound::document,
     },
 ];
 

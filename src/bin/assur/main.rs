@@ -12,7 +12,9 @@ use std::process::ExitCode;
 
 use args::{Arguments, Asked, Command};
 use assur::Manipulator;
-use assur::exchange::{AngleUnit, CheckReport, ForwardReport, ModelFile, read_triad};
+use assur::exchange::{
+    AngleUnit, CheckReport, ClaimedPoses, ForwardReport, ModelFile, Subject, VerifyReport, read_triad,
+};
 use clap::{CommandFactory, Parser};
 use output::{Failure, Files};
 
@@ -44,6 +46,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             kinematics::path(&model, &through, &from, output.as_deref(), &shown)
         }
         Command::Triad { file, asked } => triad(&file, &asked),
+        Command::Verify { report, model, tolerance, json } => verify(&report, &model, tolerance, json),
         Command::Derive { name: Some(name), .. } => output::print(&derive::document(&name)?),
         Command::Derive { name: None, .. } => output::print(&derive::list()),
         Command::Completions { shell } => {
@@ -75,8 +78,8 @@ fn forward(path: &Path, inputs: &[f64], asked: &Asked) -> Result<(), Failure> {
     let model = ModelFile::read(path)?;
     let robot = &model.manipulator;
     let inputs = tables::inputs_in_radians(robot, inputs, model.angle_unit);
-    let answer =
-        robot.forward(&inputs).map_err(|error| Failure::About(path.display().to_string(), error.to_string()))?;
+    let answer = if asked.certify { robot.certify(&inputs) } else { robot.forward(&inputs) };
+    let answer = answer.map_err(|error| Failure::About(path.display().to_string(), error.to_string()))?;
     Files::default().with_drawings(asked, || assur::plot::draw_modes(robot, &answer))?.write()?;
     output::print(&if asked.json {
         ForwardReport::of_manipulator(&answer).to_json()
@@ -87,11 +90,25 @@ fn forward(path: &Path, inputs: &[f64], asked: &Asked) -> Result<(), Failure> {
 
 fn triad(path: &Path, asked: &Asked) -> Result<(), Failure> {
     let triad = read_triad(path)?;
-    let answer = triad.assemble();
+    let answer = if asked.certify { triad.certify() } else { triad.assemble() };
     Files::default().with_drawings(asked, || assur::plot::draw_assemblies(&triad, &answer))?.write()?;
     output::print(&if asked.json {
         ForwardReport::of_triad(&triad, &answer).to_json()
     } else {
         tables::triad(&triad, &answer, asked)
     })
+}
+
+fn verify(report: &Path, model: &Path, tolerance: f64, json: bool) -> Result<(), Failure> {
+    let claims = ClaimedPoses::read(report)?;
+    let group = match Subject::read(model)? {
+        Subject::Triad(triad) => triad.certify(),
+        Subject::Model(model) => {
+            let answer = model.manipulator.certify(&claims.inputs);
+            answer.map_err(|error| Failure::About(report.display().to_string(), error.to_string()))?.group
+        }
+    };
+    let judgement = group.judge(&claims.poses, tolerance);
+    let report = VerifyReport::of(&group, &judgement, tolerance);
+    output::print(&if json { report.to_json() } else { tables::verify(&report) })
 }

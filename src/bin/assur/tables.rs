@@ -3,9 +3,9 @@
 use std::fmt::Write;
 
 use anstyle::{AnsiColor, Style};
-use assur::exchange::{AngleUnit, CheckReport, ModelFile};
+use assur::exchange::{AngleUnit, CertificateReport, CheckReport, ModelFile, VerifyReport};
 use assur::num_complex::Complex64;
-use assur::{Assemblies, AssemblyMode, AssemblyModes, JointKind, Manipulator, Status, Triad};
+use assur::{Assemblies, AssemblyMode, AssemblyModes, JointKind, Manipulator, Status, Triad, Verdict};
 use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle};
 
 use crate::args::Asked;
@@ -15,6 +15,8 @@ pub(crate) const ALARM: Style = Style::new().fg_color(Some(anstyle::Color::Ansi(
 /// Digits of poses, and of everything beside them.
 pub(crate) const POSE_DIGITS: i32 = 12;
 pub(crate) const SIDE_DIGITS: i32 = 7;
+/// Digits of a box's middle.
+const BOX_DIGITS: i32 = 16;
 /// Digits of inputs as written for people.
 const INPUT_DECIMALS: f64 = 1e3;
 
@@ -121,6 +123,40 @@ pub(crate) fn triad(triad: &Triad, answer: &Assemblies, asked: &Asked) -> String
     text
 }
 
+/// The verdict on each claim, and what is missing. Angles in radians, as in reports.
+pub(crate) fn verify(report: &VerifyReport) -> String {
+    let mut text = String::new();
+    let count = |verdict: &str| report.claims.iter().filter(|claim| claim.verdict == verdict).count();
+    let mut table = table(&["claim", "x", "y", "phi (rad)", "verdict", "nearest mode", "distance"]);
+    for (number, claim) in (1..).zip(&report.claims) {
+        let nearest = claim.nearest.map_or("none".to_owned(), |mode| mode.to_string());
+        let distance = claim.distance.map_or(String::new(), |distance| format!("{distance:.1e}"));
+        let [x, y, phi] = claim.pose.map(|value| digits(value, POSE_DIGITS));
+        table.add_row([number.to_string(), x, y, phi, claim.verdict.to_owned(), nearest, distance]);
+    }
+    if !report.claims.is_empty() {
+        line(&mut text, format_args!("{table}"));
+    }
+    for missing in &report.missing {
+        let [x, y, phi] = missing.pose.map(|value| digits(value, POSE_DIGITS));
+        line(
+            &mut text,
+            format_args!("{ALARM}missing: mode {}, x = {x}, y = {y}, phi = {phi} rad{ALARM:#}", missing.mode),
+        );
+    }
+    let [proven, refuted, undecided] = ["proven", "refuted", "undecided"].map(count);
+    let missing = report.missing.len();
+    line(
+        &mut text,
+        format_args!("{STRONG}{proven} proven, {refuted} refuted, {undecided} undecided; {missing} missing{STRONG:#}"),
+    );
+    if let Some(certificate) = &report.certificate {
+        line(&mut text, format_args!("proof: {}", certificate.summary));
+        line(&mut text, format_args!("of {}", certificate.about));
+    }
+    text
+}
+
 fn pose_header(unit: AngleUnit) -> Vec<String> {
     let phi = format!("phi ({})", unit.name());
     ["mode", "x", "y", &phi, "mult.", "det A", "residual"].map(str::to_owned).to_vec()
@@ -174,6 +210,12 @@ fn group_facts(text: &mut String, group: &Assemblies, unit: AngleUnit, asked: &A
         let names: Vec<&str> = group.special.iter().map(|special| special.name()).collect();
         line(text, format_args!("special: {}", names.join(", ")));
     }
+    for near in &group.near {
+        line(text, format_args!("nearly {}, by {:.1e}, but not: decided exactly", near.special.name(), near.distance));
+    }
+    if let Some(certificate) = &group.certificate {
+        proof(text, group, &CertificateReport::from(certificate), unit);
+    }
     if asked.complex && !group.complex.is_empty() {
         let mut table = table(&["theta = e^(i phi)", "z = x + iy", "w = x - iy", "mult."]);
         for mode in &group.complex {
@@ -193,6 +235,37 @@ fn group_facts(text: &mut String, group: &Assemblies, unit: AngleUnit, asked: &A
                 line(text, format_args!("\neliminant\n{table}"));
             }
         }
+    }
+}
+
+/// The box of each mode, and the theorem.
+fn proof(text: &mut String, group: &Assemblies, certificate: &CertificateReport, unit: AngleUnit) {
+    let phi = format!("phi ({})", unit.name());
+    let mut table = table(&["mode", "proof", "x", "±", "y", "±", &phi, "±"]);
+    for (number, mode) in (1..).zip(&group.modes) {
+        let mut row =
+            vec![number.to_string(), if mode.proof == Verdict::Proven { "proven" } else { "undecided" }.to_owned()];
+        for (k, [low, high]) in mode.pose_box.into_iter().flatten().enumerate() {
+            let in_unit = |value: f64| if k == 2 { unit.from_rad(value) } else { value };
+            row.push(digits(in_unit(0.5 * low + 0.5 * high), BOX_DIGITS));
+            row.push(format!("{:.1e}", in_unit(0.5 * (high - low))));
+        }
+        table.add_row(row);
+    }
+    if !group.modes.is_empty() {
+        line(text, format_args!("\nboxes, each with one mode in it and no other\n{table}"));
+    }
+    line(text, format_args!("{STRONG}proof: {}{STRONG:#}", certificate.summary));
+    line(text, format_args!("of {}", certificate.about));
+    if certificate.rounded_offset {
+        line(
+            text,
+            format_args!("an RP leg's d·|v| is no f64: counted as rounded, boxes of simple modes hold for both"),
+        );
+    }
+    if certificate.indistinct > 0 {
+        let count = certificate.indistinct;
+        line(text, format_args!("{count} boxes meet: their modes are nearer than f64 can tell"));
     }
 }
 
