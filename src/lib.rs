@@ -86,8 +86,11 @@ pub use linkage::{
     TwoLinkAssembly, TwoLinkError, TwoLinkGroup, TwoLinkSpecial, triad_degree,
 };
 pub use manipulator::{
-    AssemblyModes, DescriptionError, FamilyError, JointKind, JointsError, JointsReason, Leg, LockError, LockedGroup,
-    Manipulator, ManipulatorMode, Placement, Remark, Violation,
+    AssemblyModes, DescriptionError, FamilyError, FollowedPath, InverseSpecial, JointKind, JointsError, JointsReason,
+    KinematicsError, Leg, LegLocus, LockError, LockedGroup, LocusError, Manipulator, ManipulatorMode, MapQuantity,
+    PathError, PathEvent, PathEventKind, PathRow, PathSettings, Placement, PlaneCurve, PlaneMap, PlaneWindow, Reading,
+    Remark, SingularMatrix, Singularity, SingularityKind, SingularityLocus, Unreachable, Velocity, Violation,
+    WorkingMode, WorkingModes,
 };
 pub use solve::{
     Account, Eliminant, EliminateError, Outcome, Plan, RejectedRoot, RootRejection, Solution, Solutions, SolveError,
