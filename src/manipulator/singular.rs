@@ -137,7 +137,7 @@ impl Manipulator {
     /// assert_eq!(found.kind, SingularityKind::Type2);
     /// let Some(Reading::Meet { point }) = found.reading else { panic!("the lines meet") };
     /// assert!((point - Vector2::new(0.0, 4.0)).norm() < 1e-12);
-    /// assert_eq!(robot.singularity(&Pose::new(0.5, 1.0, 0.0), "+++", None)?.kind, SingularityKind::Regular);
+    /// assert_eq!(robot.singularity(&Pose::new(0.5, 1.2, 0.4), "+++", None)?.kind, SingularityKind::Regular);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn singularity(&self, pose: &Pose, signs: &str, length: Option<f64>) -> Result<Singularity, KinematicsError> {
