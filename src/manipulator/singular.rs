@@ -9,7 +9,7 @@
 //!
 //! Singular is decided on the loop equations, never on the eliminant: a double zero of the eliminant may be two poses of one orientation.
 //! Whether an instantaneous motion is a finite one is decided exactly, on the locked group whose numbers are the `f64`s of the inputs.
-//! Source: Gosselin and Angeles (1990), doi:10.1109/70.56660.
+//! Source: Gosselin and Angeles (1990), "Singularity analysis of closed-loop kinematic chains".
 
 use nalgebra::{DMatrix, Matrix3, Vector2, Vector3};
 
