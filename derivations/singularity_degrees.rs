@@ -32,9 +32,9 @@ pub fn document() -> String {
          ===============================\n\
          Claim. At a fixed orientation det A = 0, all working modes together, is a curve in the position (x, y) of the\n\
          degree below, for three legs of a type with general dimensions. Each is found by exact elimination of the square roots\n\
-         (Manipulator::singularity_locus) on one example; a special example could only have a lower one. Degree 0: whether A is singular\n\
-         does not depend on the position. 44 for 3-RRR is the degree of an irreducible curve: modulo 1000003 its restrictions to the\n\
-         lines y = 7 and y = 1234 have factors of degrees 6, 9, 9, 20 and 1, 7, 36, which no common splitting fits.\n\n",
+         (Manipulator::singularity_locus) on one example, so a general one has at least this degree. Degree 0: whether A is singular\n\
+         does not depend on the position. 44 for 3-RRR has no factor to spare: modulo 1000003 its restrictions\n\
+         to two lines y = const were found, apart from this program, to have no common splitting.\n\n",
     );
     for (kind, degree) in DEGREES {
         let robot = general(kind);

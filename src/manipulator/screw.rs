@@ -11,8 +11,8 @@
 //! | PR, RP: direction `u`, pivot `p` | force `-i u` (RP: `i u`) through the pivot, at right angles to the slider |
 //! | PP: directions `u`, `v` | no force, the moment `u × v` |
 //!
-//! Source: the derivation `velocity_row`; reciprocal screws go back to Ball (1900), for parallel manipulators to Mohamed and Duffy (1985),
-//! doi:10.1115/1.3260794. Every function is written over a ring, so that the derivation can run it on symbols.
+//! Source: the derivation `velocity_row`; reciprocal screws go back to Ball (1900), for parallel manipulators to Mohamed and Duffy (1985).
+//! Every function is written over a ring, so that the derivation can run it on symbols.
 
 use super::describe::JointKind;
 use crate::algebra::Ring;

@@ -9,7 +9,7 @@
 //!
 //! Singular is decided on the loop equations, never on the eliminant: a double zero of the eliminant may be two poses of one orientation.
 //! Whether an instantaneous motion is a finite one is decided exactly, on the locked group whose numbers are the `f64`s of the inputs.
-//! Source: Gosselin and Angeles (1990), doi:10.1109/70.56660.
+//! Source: Gosselin and Angeles (1990), "Singularity analysis of closed-loop kinematic chains".
 
 use nalgebra::{DMatrix, Matrix3, Vector2, Vector3};
 
@@ -137,7 +137,7 @@ impl Manipulator {
     /// assert_eq!(found.kind, SingularityKind::Type2);
     /// let Some(Reading::Meet { point }) = found.reading else { panic!("the lines meet") };
     /// assert!((point - Vector2::new(0.0, 4.0)).norm() < 1e-12);
-    /// assert_eq!(robot.singularity(&Pose::new(0.5, 1.0, 0.0), "+++", None)?.kind, SingularityKind::Regular);
+    /// assert_eq!(robot.singularity(&Pose::new(0.5, 1.2, 0.4), "+++", None)?.kind, SingularityKind::Regular);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn singularity(&self, pose: &Pose, signs: &str, length: Option<f64>) -> Result<Singularity, KinematicsError> {

@@ -12,7 +12,7 @@ use crate::manipulator::{FollowedPath, LegLocus, Manipulator, PathEventKind, Pla
 const SIDE: f64 = 560.0;
 const LEFT: f64 = 70.0;
 const TOP: f64 = 72.0;
-const BESIDE: f64 = 170.0;
+const BESIDE: f64 = 215.0;
 const BOTTOM: f64 = 46.0;
 /// Colours of curves and modes.
 const COLOURS: [&str; 8] = ["#c0392b", "#2471a3", "#1e8449", "#b7950b", "#7d3c98", "#d35400", "#117a65", "#5d6d7e"];
