@@ -78,7 +78,7 @@ fn circle_and_two_rows() -> (System<Gaussian<Integer>>, Plan<Gaussian<Integer>>)
 }
 
 fn resultants(c: &mut Criterion) {
-    for degree in [1, 2, 3] {
+    for degree in [1, 2, 3, 4] {
         let (f, g) = (dense(degree, 3), dense(degree, 8));
         assert_eq!(resultant_bareiss(&f, &g, 0), resultant_interpolated(&f, &g, 0));
         println!("resultant of degree {degree}: {} terms", resultant(&f, &g, 0).term_count());

@@ -134,8 +134,9 @@ fn any_platform() -> String {
     format!(
         "Step 5. Every platform: two half-angle tangents p, q give cosines and, by the law of sines, sides, all rational in p, q.
   At {TRIALS} seeded random (p, q, scale, D1, D2, D3), numerators and denominators up to 2^20, P8 to P5 vanish exactly and P4 does not.
-  Cleared of denominators each P_k is a polynomial of total degree below 200; were one not zero, a trial would miss it with
-  probability at most 200/2^20 (Schwartz, Zippel), all {TRIALS} with less than 10^-70.   [checked]"
+  Each P_k is of degree 4 in the coefficients of each Q_i, and these, cleared of denominators, of degree at most 10 in the eight
+  integers: 8 from the angles, 2 from the scale. Were a P_k of degree 120 not zero, a trial would miss it with probability at most
+  120/2^20 (Schwartz, Zippel), all {TRIALS} with less than 10^-78.   [checked]"
     )
 }
 

@@ -20,7 +20,7 @@
 //! # How
 //!
 //! [`Manipulator::lock`] holds the actuators and leaves an Assur group, mostly a [`Triad`]. [`Triad::constraints`] writes its
-//! closures as polynomials, [`eliminate`] takes them to one polynomial in `theta = e^(i phi)` by Sylvester resultants, over the
+//! closures as polynomials, [`fn@eliminate`] takes them to one polynomial in `theta = e^(i phi)` by Sylvester resultants, over the
 //! integers; [`roots`] counts its real roots exactly and locates all of them; each is lifted to the poses above it, and
 //! each pose is measured on the assembled geometry. Every root of the polynomial ends in one entry of the [`Account`].
 //! The generic layers ([`algebra`], [`mod@eliminate`], [`roots`], [`mod@solve`]) know no mechanism and solve any small polynomial system.
@@ -86,8 +86,11 @@ pub use linkage::{
     TwoLinkAssembly, TwoLinkError, TwoLinkGroup, TwoLinkSpecial, triad_degree,
 };
 pub use manipulator::{
-    AssemblyModes, DescriptionError, FamilyError, JointKind, JointsError, JointsReason, Leg, LockError, LockedGroup,
-    Manipulator, ManipulatorMode, Placement, Remark, Violation,
+    AssemblyModes, DescriptionError, FamilyError, FollowedPath, InverseSpecial, JointKind, JointsError, JointsReason,
+    KinematicsError, Leg, LegLocus, LockError, LockedGroup, LocusError, Manipulator, ManipulatorMode, MapQuantity,
+    PathError, PathEvent, PathEventKind, PathRow, PathSettings, Placement, PlaneCurve, PlaneMap, PlaneWindow, Reading,
+    Remark, SingularMatrix, Singularity, SingularityKind, SingularityLocus, Unreachable, Velocity, Violation,
+    WorkingMode, WorkingModes,
 };
 pub use solve::{
     Account, Eliminant, EliminateError, Outcome, Plan, RejectedRoot, RootRejection, Solution, Solutions, SolveError,

@@ -11,7 +11,7 @@ use crate::algebra::{Domain, Ring, UPoly};
 
 /// The determinant by fraction-free elimination.
 ///
-/// **Shape:** square, row by row; the empty matrix has determinant 1. **Proof:** exact. **Cost:** about `n³` products and `n³/3`
+/// **Shape:** square, row by row; the empty matrix has determinant 1. **Proof:** exact. **Cost:** about `2n³/3` products and `n³/3`
 /// exact divisions; sizes up to 3 are expanded instead.
 ///
 /// ```

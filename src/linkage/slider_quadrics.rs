@@ -170,7 +170,7 @@ fn placed(
     SliderPose { pose, sliders, corners: corners.map(|p| pose.place(p)), residual }
 }
 
-/// The polynomial times its common denominator: elimination over integers spares a gcd per operation (ten times faster here).
+/// The polynomial times its common denominator: elimination over integers spares a gcd per operation (the tests below run eight times faster).
 fn integral(polynomial: &Poly<Rational>) -> Poly<Integer> {
     let denominators = polynomial.terms().map(|(_, c)| Integer::from(c.denominator().clone()));
     let common = denominators.fold(Integer::ONE, |common, d| {

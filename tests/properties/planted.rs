@@ -1,5 +1,7 @@
 //! Triads made from a chosen pose, so that the pose is known to be among their assembly modes.
 
+use std::f64::consts::PI;
+
 use assur::nalgebra::Vector2;
 use assur::{Assemblies, Dyad, Offset, Pose, Triad};
 
@@ -75,7 +77,7 @@ pub fn planted_leg(kind: &str, pose: &Pose, numbers: [f64; 7]) -> Dyad {
 
 /// A random triad of these dyads and a pose in which it closes.
 pub fn planted_triad(names: [&str; 3], random: &mut Random) -> (Triad, Pose) {
-    let pose = Pose::new(random.between(-10.0, 10.0), random.between(-10.0, 10.0), random.between(-3.0, 3.0));
+    let pose = Pose::new(random.between(-10.0, 10.0), random.between(-10.0, 10.0), random.between(-PI, PI));
     let legs = names.map(|name| {
         let numbers = [10.0, 10.0, 10.0, 10.0, 1.0, 1.0, 5.0].map(|range| random.between(-range, range));
         planted_leg(name, &pose, numbers)

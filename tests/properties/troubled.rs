@@ -148,37 +148,74 @@ fn any_size() -> impl Strategy<Value = f64> {
     ]
 }
 
+/// Sizes far apart but not absurdly so.
+fn uneven_size() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        1 => Just(0.0),
+        2 => (-1.0..1.0, -6i32..=6).prop_map(|(m, e)| m * 10f64.powi(e)),
+        1 => -4.0..4.0,
+    ]
+}
+
+/// Whatever the numbers are, the account adds up and nothing that is listed is NaN.
+fn accounted_for(names: [&str; 3], numbers: [[f64; 7]; 3]) -> Result<Status, TestCaseError> {
+    let legs = std::array::from_fn(|i| {
+        let [ax, ay, bx, by, dx, dy, q] = numbers[i];
+        let (a, b) = (Vector2::new(ax, ay), Vector2::new(bx, by));
+        let d = if (dx, dy) == (0.0, 0.0) { Vector2::y() } else { Vector2::new(dx, dy) };
+        match names[i] {
+            "RR" => Dyad::RR { a, b, length: q.abs() },
+            "PR" => Dyad::PR { a, u: d, b },
+            "RP" => Dyad::RP { a, b, v: d, offset: Offset::Distance(q) },
+            _ => Dyad::PP { phi: q },
+        }
+    });
+    let answer = Triad::new(legs).expect("numbers are finite").assemble();
+    prop_assert!(answer.account.adds_up());
+    prop_assert_eq!(answer.account.undecided > 0, answer.status == Status::Undecided);
+    for mode in &answer.modes {
+        let p = mode.pose;
+        prop_assert!(p.x.is_finite() && p.y.is_finite() && p.phi.abs() <= std::f64::consts::PI);
+        prop_assert!(mode.residual < 1e-9 && mode.det_a.is_finite(), "{mode:?}");
+    }
+    prop_assert!(answer.complex.iter().all(|m| m.theta.is_finite() && m.z.is_finite() && m.w.is_finite()));
+    Ok(answer.status)
+}
+
 #[test]
 fn numbers_of_any_size_lead_to_an_account_that_adds_up() {
-    for names in TRIADS {
+    // Triads of degree six with such numbers take seconds, until the limit on digits ends them as undecided.
+    for names in TRIADS.iter().filter(|names| names.contains(&"PP") || names.iter().all(|name| *name == names[0])) {
+        if names.contains(&"RR") && !names.contains(&"PP") {
+            continue;
+        }
         let strategy = prop::array::uniform3(prop::array::uniform7(any_size()));
-        let outcome = TestRunner::new(cases(3)).run(&strategy, |numbers| {
-            let legs = std::array::from_fn(|i| {
-                let [ax, ay, bx, by, dx, dy, q] = numbers[i];
-                let (a, b) = (Vector2::new(ax, ay), Vector2::new(bx, by));
-                let d = if (dx, dy) == (0.0, 0.0) { Vector2::y() } else { Vector2::new(dx, dy) };
-                match names[i] {
-                    "RR" => Dyad::RR { a, b, length: q.abs() },
-                    "PR" => Dyad::PR { a, u: d, b },
-                    "RP" => Dyad::RP { a, b, v: d, offset: Offset::Distance(q) },
-                    _ => Dyad::PP { phi: q },
-                }
-            });
-            let answer = Triad::new(legs).expect("numbers are finite").assemble();
-            prop_assert!(answer.account.adds_up());
-            prop_assert_eq!(answer.account.undecided > 0, answer.status == Status::Undecided);
-            for mode in &answer.modes {
-                let p = mode.pose;
-                prop_assert!(p.x.is_finite() && p.y.is_finite() && p.phi.abs() <= std::f64::consts::PI);
-                prop_assert!(mode.residual < 1e-9 && mode.det_a.is_finite(), "{mode:?}");
-            }
-            prop_assert!(answer.complex.iter().all(|m| m.theta.is_finite() && m.z.is_finite() && m.w.is_finite()));
+        let outcome = TestRunner::new(cases(10)).run(&strategy, |numbers| accounted_for(*names, numbers).map(|_| ()));
+        if let Err(failure) = outcome {
+            panic!("{}: {failure}", names.join("-"));
+        }
+    }
+}
+
+#[test]
+fn lengths_a_million_times_apart_are_accounted_for() {
+    let (mut asked, mut undecided) = (0, 0);
+    for names in TRIADS {
+        let strategy = prop::array::uniform3(prop::array::uniform7(uneven_size()));
+        let tally = std::cell::Cell::new((0, 0));
+        let outcome = TestRunner::new(cases(50)).run(&strategy, |numbers| {
+            let status = accounted_for(names, numbers)?;
+            let (asked, undecided) = tally.get();
+            tally.set((asked + 1, undecided + usize::from(status == Status::Undecided)));
             Ok(())
         });
         if let Err(failure) = outcome {
             panic!("{}: {failure}", names.join("-"));
         }
+        (asked, undecided) = (asked + tally.get().0, undecided + tally.get().1);
     }
+    println!("{undecided} of {asked} undecided");
+    assert!(undecided * 50 < asked, "{undecided} of {asked} undecided");
 }
 
 #[test]

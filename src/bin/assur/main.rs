@@ -2,6 +2,7 @@
 
 mod args;
 mod derive;
+mod kinematics;
 mod output;
 mod png;
 mod tables;
@@ -32,6 +33,18 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             output::print(&if json { report.to_json() } else { tables::check(&report) })
         }
         Command::Forward { model, inputs, asked } => forward(&model, &inputs, &asked),
+        Command::Inverse { model, pose, json } => kinematics::inverse(&model, &pose, json),
+        Command::Velocity { model, pose, mode, rates, accelerations, wrench, length, json } => {
+            let asked = kinematics::AskedMotion { rates, accelerations, wrench, length };
+            kinematics::velocity(&model, &pose, mode.as_deref(), &asked, json)
+        }
+        Command::Singularities { model, phi, mode, map, csv, no_polynomial, shown } => {
+            let asked = kinematics::AskedLoci { phi, mode, map, csv, polynomial: !no_polynomial };
+            kinematics::singularities(&model, &asked, &shown)
+        }
+        Command::Path { model, through, from, output, shown } => {
+            kinematics::path(&model, &through, &from, output.as_deref(), &shown)
+        }
         Command::Triad { file, asked } => triad(&file, &asked),
         Command::Verify { report, model, tolerance, json } => verify(&report, &model, tolerance, json),
         Command::Derive { name: Some(name), .. } => output::print(&derive::document(&name)?),
