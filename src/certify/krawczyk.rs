@@ -211,6 +211,8 @@ mod tests {
         let one = |_: &Region<1>| [[Interval::ONE]];
         assert_ne!(unique_zero(&(line, one), &between(1.0, 2.0)).0, Verdict::Refuted);
         assert_eq!(unique_zero(&(line, one), &between(0.5, 2.0)).0, Verdict::Proven);
+        // The image fills this box to its ends: the theorem asks for its inside.
+        assert_eq!(unique_zero(&(line, one), &between(1.0, 1.0)).0, Verdict::Undecided);
     }
 
     #[test]
