@@ -55,7 +55,13 @@
 //! - von zur Gathen and Gerhard 2013: Modern Computer Algebra, 3rd edition, Cambridge University Press.
 //! - Gosselin, Sefrioui, Richard 1992: Solutions polynomiales au problème de la cinématique directe des manipulateurs parallèles plans à
 //!   trois degrés de liberté, Mech. Mach. Theory 27, 107-119.
+//! - Knuth 1969: D. E. Knuth, The Art of Computer Programming, vol. 2, Addison-Wesley (exact sums of two floats).
+//! - Krawczyk 1969: R. Krawczyk, Newton-Algorithmen zur Bestimmung von Nullstellen mit Fehlerschranken, Computing 4, 187-201.
 //! - Mitsi, Bouzakis, Mansour, Popescu: A method for forward displacement analysis of 3-RRP and 3-PRP planar parallel manipulators.
+//! - Mohamed and Duffy 1985: M. G. Mohamed, J. Duffy, A direct determination of the instantaneous kinematics of fully parallel robot
+//!   manipulators, J. Mech. Transm. Autom. Des. 107, 226-229.
+//! - Moore 1977: R. E. Moore, A test for existence of solutions to nonlinear systems, SIAM J. Numer. Anal. 14, 611-615.
+//! - Moore, Kearfott, Cloud 2009: Introduction to Interval Analysis, SIAM.
 //! - Parlett and Reinsch 1969: B. N. Parlett, C. Reinsch, Balancing a matrix for calculation of eigenvalues and eigenvectors,
 //!   Numer. Math. 13, 293-304.
 //! - Yun 1976: D. Y. Y. Yun, On square-free decomposition algorithms, SYMSAC '76, 26-35.

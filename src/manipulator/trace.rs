@@ -69,6 +69,8 @@ impl PlaneMap {
     }
 }
 
+/// A determinant below this part of its rows' sizes is what rounding leaves of zero: some tens of units in the last place.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// Cells along each side of the coarse grid of a drawn curve.
 const COARSE: usize = 96;
 /// Halvings of a square that the curve passes, and of one in which a leg's reach ends.
@@ -118,7 +120,10 @@ impl Manipulator {
         let value = |p: Vector2<f64>| {
             let pose = Pose::new(p.x, p.y, phi);
             let mode = self.working_mode(&pose, signs).ok()?;
-            Some(self.velocity_at(&pose, &mode.joints).pose_matrix.determinant())
+            let rows = self.velocity_at(&pose, &mode.joints).pose_matrix;
+            let (determinant, size) = (rows.determinant(), rows.row_iter().map(|row| row.norm()).product::<f64>());
+            // Where every position is singular, the signs of what rounding leaves would draw a curve through every square.
+            Some(if determinant.abs() <= ROUNDING * size { 0.0 } else { determinant })
         };
         let step = (window.high - window.low) / COARSE as f64;
         let corner = |i: usize, j: usize| window.low + Vector2::new(step.x * i as f64, step.y * j as f64);
