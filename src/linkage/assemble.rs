@@ -48,7 +48,7 @@ impl Triad {
     /// vanishes identically. **Units and frame**: poses of the platform frame in the base frame, lengths as given, radians.
     /// **Proof**: the number of modes, their multiplicities and every degenerate case are decided exactly, for the
     /// triad whose numbers are the given `f64`s (for an RP leg given by its distance see [`super::Offset`]); poses are rounded from
-    /// 160 bits or more. **Cost**: about half a millisecond.
+    /// 160 bits or more. **Cost**: about a millisecond.
     /// **Source**: Gosselin, Sefrioui, Richard 1992 for three RR legs; the derivation `degree_table` for all.
     ///
     /// ```

@@ -66,7 +66,7 @@ impl Manipulator {
     ///
     /// **Shape**: one input per actuated joint, leg by leg, base first; modes sorted by `phi`, `x`, `y`. **Units and frame**: lengths for
     /// sliders, radians for revolute joints; poses of the platform frame in the base frame. **Proof**: complete, in the sense of
-    /// [`Triad::assemble`]: the account says where each of the eliminant's roots went. **Cost**: about half a millisecond.
+    /// [`Triad::assemble`]: the account says where each of the eliminant's roots went. **Cost**: about a millisecond.
     ///
     /// # Errors
     /// Inputs of the wrong count, not finite or outside their limits; manipulators that three actuators do not determine.
