@@ -66,6 +66,8 @@ const MERGED: f64 = 1e-6;
 const SINGULAR: f64 = 1e-6;
 /// Imaginary parts below this are rounding at a simple solution, and below its square root at a multiple one (heuristic).
 const REAL: f64 = 1e-10;
+/// No more branches than this are followed above one root (heuristic; three quadrics have 24 at most).
+const BRANCHES: usize = 4096;
 /// Variables smaller than this part of their usual size (the upper quartile over all candidates: neither zeros nor a candidate that
 /// ran away decides) count as that large in residuals: where every term vanishes, rounding would have nothing to be compared with
 /// (heuristic).
@@ -117,7 +119,7 @@ pub fn lift<C: ToComplex>(
             let lifted: Vec<(Vec<Vec<Complex64>>, bool)> = (clusters.iter())
                 .map(|cluster| {
                     let (candidates, free): (Vec<_>, Vec<_>) =
-                        cluster.roots.iter().map(|&root| fibres.above(root)).unzip();
+                        cluster.roots.iter().map(|&root| fibres.above(root, Branches::Shared)).unzip();
                     (candidates.concat(), free.contains(&true))
                 })
                 .collect();
@@ -135,15 +137,29 @@ pub fn lift<C: ToComplex>(
                     let here = clusters[k].distance(z);
                     clusters.iter().all(|other| other.distance(z) >= here)
                 };
-                let refined = candidates.into_iter().filter_map(|values| fibres.refine(values, &floors, multiplicity));
                 let mut found: Vec<Refined> = Vec::new();
-                for solution in refined.filter(|s| nearest_is_k(s.values[fibres.left])) {
-                    match found.iter_mut().find(|known| known.equals(&solution, &floors)) {
-                        Some(known) if known.residual > solution.residual => *known = solution,
-                        Some(_) => {}
-                        None => found.push(solution),
+                let mut settle = |candidates: Vec<Vec<Complex64>>| {
+                    for values in candidates {
+                        let Some(solution) = fibres.refine(values, &floors, multiplicity) else { continue };
+                        match found.iter_mut().find(|known| known.equals(&solution, &floors)) {
+                            Some(known) if known.residual > solution.residual => *known = solution,
+                            Some(_) => {}
+                            None if nearest_is_k(solution.values[fibres.left]) => found.push(solution),
+                            None => {}
+                        }
                     }
+                    found.len()
+                };
+                if settle(candidates) < multiplicity && !free {
+                    // A root known to few digits can hide which branches are shared: now all are tried, and the equations decide.
+                    settle(roots.iter().flat_map(|&root| fibres.above(root, Branches::All).0).collect());
                 }
+                // Isolated solutions are no more than the multiplicity. Singular ones beyond it are points of a curve.
+                let curve = found.len() > multiplicity && found.iter().any(|solution| solution.singular);
+                if curve {
+                    found.retain(|solution| !solution.singular);
+                }
+                let free = free || curve;
                 let Shares { counted, rest } = share_multiplicity(&found, multiplicity, free)?;
                 for (solution, multiplicity) in found.into_iter().zip(counted) {
                     let solution = fibres.finish(solution, multiplicity, &floors);
@@ -308,7 +324,7 @@ impl Fibres {
     }
 
     /// Candidates for all variables above a root, and whether some variable stayed free.
-    fn above(&self, root: Complex64) -> (Vec<Vec<Complex64>>, bool) {
+    fn above(&self, root: Complex64, which: Branches) -> (Vec<Vec<Complex64>>, bool) {
         let mut partial = vec![Complex64::ZERO; self.variables];
         partial[self.left] = root;
         let mut branches = vec![partial];
@@ -321,7 +337,7 @@ impl Fibres {
             }
             let mut extended = Vec::new();
             for values in branches {
-                match self.common_roots(*variable, [f, g], &values, &known) {
+                match self.fibre_roots(*variable, [f, g], &values, &known, which) {
                     Some(roots) => extended.extend(roots.into_iter().map(|root| {
                         let mut values = values.clone();
                         values[*variable] = root;
@@ -330,6 +346,7 @@ impl Fibres {
                     None => free = true,
                 }
             }
+            extended.truncate(BRANCHES);
             branches = extended;
             known[*variable] = true;
         }
@@ -337,18 +354,23 @@ impl Fibres {
     }
 
     /// Values of one variable above known ones; `None` where no polynomial restrains it.
-    fn common_roots(
+    fn fibre_roots(
         &self,
         variable: usize,
         pair: [&NumericPoly; 2],
         values: &[Complex64],
         known: &[bool],
+        which: Branches,
     ) -> Option<Vec<Complex64>> {
         let restrains = |p: &&NumericPoly| {
             p.contains(variable) && (0..self.variables).all(|v| v == variable || known[v] || !p.contains(v))
         };
         let fibre = |p: &NumericPoly| Fibre::new(p, variable, values);
         let mut fibres: Vec<Fibre> = pair.into_iter().filter(restrains).filter_map(fibre).collect();
+        if which == Branches::All && !fibres.is_empty() {
+            let roots = fibres.iter().filter_map(|f| companion_roots(&f.coefficients).ok());
+            return Some(roots.flat_map(|roots| roots.finite).collect());
+        }
         if let [f, g] = &fibres[..]
             && let Some(root) = f.shared_root(g)
         {
@@ -473,6 +495,15 @@ impl Fibres {
 /// The values, those that are tiny raised in size.
 fn raised(values: &[Complex64], floors: &[f64]) -> Vec<Complex64> {
     values.iter().zip(floors).map(|(z, &floor)| z.norm().max(floor).into()).collect()
+}
+
+/// Which values of a variable are followed further.
+#[derive(Clone, Copy, PartialEq)]
+enum Branches {
+    /// Roots that the two polynomials share.
+    Shared,
+    /// Every root of either.
+    All,
 }
 
 /// A polynomial in one variable above known values of the others.
