@@ -276,3 +276,33 @@ fn zeros_above_a_root_with_close_neighbours() {
     assert_eq!((found.account.real, found.account.complex), (6, 2));
     assert!(found.solutions.iter().any(|s| s.values.iter().zip(at).all(|(z, x)| (z - x as f64).norm() < 1e-12)));
 }
+
+/// Above s2 = 1 lie a simple and a double solution. Started from afar, Newton comes to the double one along many ways and stops
+/// at slightly different places; they are one.
+#[test]
+fn a_double_solution_beside_a_simple_one() {
+    let c = through([[0, -4, 0, 4, 0, 0], [3, 0, 0, 2, 0, 0], [0, 1, -2, 0, 4, 0]], [0, 1, -4]);
+    let found = solved(&three_quadrics(&c), &octic());
+    let above_one =
+        |s3: f64| found.solutions.iter().filter(move |s| (s.values[1] - 1.0).norm() + (s.values[2] - s3).norm() < 1e-5);
+    assert_eq!(above_one(4.0).map(|s| s.multiplicity).collect::<Vec<_>>(), [1]);
+    assert_eq!(above_one(-4.0).map(|s| s.multiplicity).collect::<Vec<_>>(), [2]);
+}
+
+#[test]
+fn solutions_at_the_origin() {
+    // The origin alone, simple and double.
+    let [x, y, _] = xyz();
+    let plan = Plan::new("y").resultant("r", ("f", "g"), "x");
+    let simple = System::new(["x", "y"]).with("f", x.clone() - y.clone()).with("g", x.clone() + y.clone());
+    let found = solved(&simple, &plan);
+    assert_eq!((found.account.real, found.solutions[0].values.as_slice()), (1, &[Complex64::ZERO; 2][..]));
+    let double = System::new(["x", "y"]).with("f", x.power(2) + y.power(2)).with("g", x.clone() + n(2) * y.clone());
+    let found = solved(&double, &plan);
+    assert_eq!((found.solutions.len(), found.solutions[0].multiplicity, found.account.real), (1, 2, 2));
+    // The origin among others.
+    let among = System::new(["x", "y"]).with("f", x.power(2) - x.clone() - y.clone()).with("g", y.clone() - n(3) * x);
+    let found = solved(&among, &plan);
+    assert_eq!(found.account.real, 2);
+    assert_eq!(found.solutions[0].values, [Complex64::ZERO; 2]);
+}

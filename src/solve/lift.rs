@@ -5,7 +5,7 @@
 //! roots of the one that lie near roots of the other where it is more, so that solutions sharing a root are all found. Newton's
 //! method on the *original* equations then refines each, and what does not satisfy them is rejected by name.
 //!
-//! What it cannot do: tell two solutions apart that agree to about 1e-6 in every variable, unless their roots differ; and see a real
+//! What it cannot do: tell two solutions apart that agree to about 1e-6 in every variable (singular ones: 1e-4), unless their roots differ; and see a real
 //! solution in a complex pair closer to the real axis than the limits below.
 
 use nalgebra::{DMatrix, DVector};
@@ -60,10 +60,12 @@ const ROUNDED_TO_ZERO: f64 = 1e-9;
 /// Roots closer than this, relative, are lifted together: rounding moves a near-double root by up to 1e-8, a near-triple one by 1e-5
 /// (heuristic).
 const CLUSTERED: f64 = 1e-5;
-/// Solutions above one root closer than this, relative, are one (heuristic).
+/// Simple solutions above one root closer than this, relative, are one (heuristic).
 const MERGED: f64 = 1e-6;
+/// Likewise where one is singular: Newton stops about 1e-8 from a double solution, 1e-5 from a triple one (heuristic).
+const MERGED_SINGULAR: f64 = 1e-4;
 /// A Jacobian with a smaller ratio of singular values belongs to a multiple solution, where Newton gives half the digits (heuristic).
-const SINGULAR: f64 = 1e-6;
+const SINGULAR: f64 = 1e-5;
 /// Imaginary parts below this are rounding at a simple solution, and below its square root at a multiple one (heuristic).
 const REAL: f64 = 1e-10;
 /// No more branches than this are followed above one root (heuristic; three quadrics have 24 at most).
@@ -129,7 +131,11 @@ pub fn lift<C: ToComplex>(
                 sizes.sort_by(f64::total_cmp);
                 sizes.get(sizes.len() * 3 / 4).copied().unwrap_or(0.0)
             };
-            let floors: Vec<f64> = (0..system.variables().len()).map(|v| SMALLEST * usual(v)).collect();
+            let sizes: Vec<f64> = (0..system.variables().len()).map(usual).collect();
+            // A variable that vanishes everywhere is measured by the others; where all vanish nothing has a size but one.
+            let others = Some(sizes.iter().copied().fold(0.0, f64::max)).filter(|&size| size > 0.0).unwrap_or(1.0);
+            let floors: Vec<f64> =
+                sizes.iter().map(|&size| SMALLEST * if size > 0.0 { size } else { others }).collect();
             for (k, (candidates, free)) in lifted.into_iter().enumerate() {
                 let Cluster { ref roots, multiplicity } = clusters[k];
                 let root = roots[0];
@@ -275,8 +281,11 @@ struct Refined {
 
 impl Refined {
     fn equals(&self, other: &Self, floors: &[f64]) -> bool {
+        let singular = self.singular || other.singular;
         let close = |((a, b), floor): ((&Complex64, &Complex64), &f64)| {
-            (a - b).norm() <= MERGED * a.norm().max(b.norm()).max(*floor)
+            let size = a.norm().max(b.norm());
+            let limit = if singular { MERGED_SINGULAR * size.max(floor / SMALLEST) } else { MERGED * size.max(*floor) };
+            (a - b).norm() <= limit
         };
         self.values.iter().zip(&other.values).zip(floors).all(close)
     }
@@ -385,9 +394,10 @@ impl Fibres {
 
     /// Newton's method on the original equations; `None` where it does not settle on a solution.
     fn refine(&self, mut values: Vec<Complex64>, floors: &[f64], multiplicity: usize) -> Option<Refined> {
-        const STEPS: usize = 40;
+        /// Enough to halve a distance of one down to 1e-8 and to find the way there first (heuristic).
+        const STEPS: usize = 100;
         // Newton halves the distance to a double solution per step, and stops where rounding hides the rest.
-        let settled = if multiplicity == 1 { 1e-8 } else { 1e-4 };
+        let settled = if multiplicity == 1 { 1e-8 } else { 1e-5 };
         let mut best: Option<(Vec<Complex64>, f64)> = None;
         let mut idle = 0;
         let mut last_step = f64::INFINITY;
@@ -437,7 +447,8 @@ impl Fibres {
         Some(Refined { values, residual, singular: condition < SINGULAR })
     }
 
-    /// The least-squares Newton step, and the ratio of the extreme singular values of the Jacobian with rows and columns of size one.
+    /// The least-squares Newton step, and the ratio of the extreme singular values of the Jacobian, each equation divided by the size of
+    /// its terms and each variable by its usual size.
     fn newton_step(&self, values: &[Complex64], floors: &[f64]) -> Option<(Vec<Complex64>, f64)> {
         let (m, n) = (self.equations.len(), self.variables);
         let mut jacobian = DMatrix::<Complex64>::zeros(m, n);
@@ -449,10 +460,10 @@ impl Fibres {
                 jacobian[(i, v)] = equation.derivative(v, values) / size;
             }
         }
-        let scales: Vec<f64> =
-            (0..n).map(|v| jacobian.column(v).norm()).map(|s| if s > 0.0 { s } else { 1.0 }).collect();
+        // A column counts by what its variable usually amounts to. Columns of length one would hide that one has vanished.
+        let scales: Vec<f64> = (0..n).map(|v| values[v].norm().max(floors[v] / SMALLEST)).collect();
         for (v, scale) in scales.iter().enumerate() {
-            jacobian.column_mut(v).unscale_mut(*scale);
+            jacobian.column_mut(v).scale_mut(*scale);
         }
         if jacobian.iter().any(|x| !x.is_finite()) {
             return None;
@@ -462,7 +473,7 @@ impl Fibres {
         // Directions in which the equations say nothing in floats get no step.
         let step = svd.solve(&value, 1e-14 * largest).ok()?;
         let smallest = if m < n { 0.0 } else { svd.singular_values.min() };
-        let step = step.iter().zip(&scales).map(|(dx, scale)| dx / *scale).collect();
+        let step = step.iter().zip(&scales).map(|(dx, scale)| dx * *scale).collect();
         Some((step, if largest > 0.0 { smallest / largest } else { 0.0 }))
     }
 
