@@ -20,7 +20,7 @@
 //! # How
 //!
 //! [`Manipulator::lock`] holds the actuators and leaves an Assur group, mostly a [`Triad`]. [`Triad::constraints`] writes its
-//! closures as polynomials, [`eliminate`] takes them to one polynomial in `theta = e^(i phi)` by Sylvester resultants, over the
+//! closures as polynomials, [`fn@eliminate`] takes them to one polynomial in `theta = e^(i phi)` by Sylvester resultants, over the
 //! integers; [`roots`] counts its real roots exactly and locates all of them; each is lifted to the poses above it, and
 //! each pose is measured on the assembled geometry. Every root of the polynomial ends in one entry of the [`Account`].
 //! The generic layers ([`algebra`], [`mod@eliminate`], [`roots`], [`mod@solve`]) know no mechanism and solve any small polynomial system.
@@ -55,7 +55,13 @@
 //! - von zur Gathen and Gerhard 2013: Modern Computer Algebra, 3rd edition, Cambridge University Press.
 //! - Gosselin, Sefrioui, Richard 1992: Solutions polynomiales au problème de la cinématique directe des manipulateurs parallèles plans à
 //!   trois degrés de liberté, Mech. Mach. Theory 27, 107-119.
+//! - Knuth 1969: D. E. Knuth, The Art of Computer Programming, vol. 2, Addison-Wesley (exact sums of two floats).
+//! - Krawczyk 1969: R. Krawczyk, Newton-Algorithmen zur Bestimmung von Nullstellen mit Fehlerschranken, Computing 4, 187-201.
 //! - Mitsi, Bouzakis, Mansour, Popescu: A method for forward displacement analysis of 3-RRP and 3-PRP planar parallel manipulators.
+//! - Mohamed and Duffy 1985: M. G. Mohamed, J. Duffy, A direct determination of the instantaneous kinematics of fully parallel robot
+//!   manipulators, J. Mech. Transm. Autom. Des. 107, 226-229.
+//! - Moore 1977: R. E. Moore, A test for existence of solutions to nonlinear systems, SIAM J. Numer. Anal. 14, 611-615.
+//! - Moore, Kearfott, Cloud 2009: Introduction to Interval Analysis, SIAM.
 //! - Parlett and Reinsch 1969: B. N. Parlett, C. Reinsch, Balancing a matrix for calculation of eigenvalues and eigenvectors,
 //!   Numer. Math. 13, 293-304.
 //! - Yun 1976: D. Y. Y. Yun, On square-free decomposition algorithms, SYMSAC '76, 26-35.
@@ -86,8 +92,11 @@ pub use linkage::{
     TwoLinkAssembly, TwoLinkError, TwoLinkGroup, TwoLinkSpecial, triad_degree,
 };
 pub use manipulator::{
-    AssemblyModes, DescriptionError, FamilyError, JointKind, JointsError, JointsReason, Leg, LockError, LockedGroup,
-    Manipulator, ManipulatorMode, Placement, Remark, Violation,
+    AssemblyModes, DescriptionError, FamilyError, FollowedPath, InverseSpecial, JointKind, JointsError, JointsReason,
+    KinematicsError, Leg, LegLocus, LockError, LockedGroup, LocusError, Manipulator, ManipulatorMode, MapQuantity,
+    PathError, PathEvent, PathEventKind, PathRow, PathSettings, Placement, PlaneCurve, PlaneMap, PlaneWindow, Reading,
+    Remark, SingularMatrix, Singularity, SingularityKind, SingularityLocus, Unreachable, Velocity, Violation,
+    WorkingMode, WorkingModes,
 };
 pub use solve::{
     Account, Eliminant, EliminateError, Outcome, Plan, RejectedRoot, RootRejection, Solution, Solutions, SolveError,

@@ -171,6 +171,17 @@ impl Interval {
         Self { lo: mul_down(near, near).max(0.0), hi: mul_up(far, far) }
     }
 
+    /// The numbers multiplied by one finite `f64`; a cheaper product.
+    pub fn times(self, factor: f64) -> Self {
+        if (0.0..f64::INFINITY).contains(&factor) {
+            Self { lo: mul_down(self.lo, factor), hi: mul_up(self.hi, factor) }
+        } else if factor.is_finite() {
+            Self { lo: mul_down(self.hi, factor), hi: mul_up(self.lo, factor) }
+        } else {
+            self * Self::point(factor)
+        }
+    }
+
     /// The square roots of the numbers that are not negative; `None` where all are negative.
     pub fn sqrt(self) -> Option<Self> {
         let lo = if self.lo > 0.0 { self.lo.sqrt().next_down() } else { 0.0 };
@@ -387,7 +398,7 @@ mod tests {
             1.0 + f64::EPSILON,
             9007199254740993.0,
             f64::MAX / 2.0,
-            2.2250738585072011e-308,
+            f64::MIN_POSITIVE.next_down(),
         ]);
         let any = any::<u64>().prop_map(f64::from_bits).prop_filter("finite", |x| x.is_finite());
         prop_oneof![special, any, -10.0..10.0f64]
@@ -411,6 +422,7 @@ mod tests {
             prop_assert!(holds(x - y, &(&a - &b)));
             prop_assert!(holds(x * y, &(&a * &b)));
             prop_assert!(holds(-x, &-a.clone()));
+            prop_assert!(holds(x.times(q), &(&a * &b)));
             prop_assert!(holds(x.square(), &(&a * &a)) && x.square().lo >= 0.0);
             prop_assert!(holds(x.hull(y), &a) && holds(x.hull(y), &b));
             match x.checked_div(y) {

@@ -111,7 +111,7 @@ pub(super) fn proof(verdict: Verdict) -> &'static str {
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
-struct ViolationReport {
+pub(super) struct ViolationReport {
     leg: usize,
     joint: usize,
     value: f64,
@@ -228,9 +228,7 @@ impl ForwardReport {
     /// # Panics
     /// Never: the report is plain numbers and texts.
     pub fn to_json(&self) -> String {
-        let mut text = serde_json::to_string_pretty(self).expect("a report is plain numbers and texts");
-        text.push('\n');
-        text
+        json(self)
     }
 }
 
@@ -252,12 +250,10 @@ impl From<&AssemblyMode> for ModeReport {
 
 impl From<&ManipulatorMode> for ModeReport {
     fn from(mode: &ManipulatorMode) -> Self {
-        let violation =
-            |&Violation { leg, joint, value, limit }: &Violation| ViolationReport { leg, joint, value, limit };
         Self {
             joints: Some(mode.joints.clone()),
             signs: Some(mode.signs.clone()),
-            violations: mode.violations.iter().map(violation).collect(),
+            violations: mode.violations.iter().map(ViolationReport::from).collect(),
             ..Self::from(&mode.mode)
         }
     }
@@ -265,4 +261,17 @@ impl From<&ManipulatorMode> for ModeReport {
 
 fn parts(value: Complex64) -> [f64; 2] {
     [value.re, value.im]
+}
+
+impl From<&Violation> for ViolationReport {
+    fn from(&Violation { leg, joint, value, limit }: &Violation) -> Self {
+        Self { leg, joint, value, limit }
+    }
+}
+
+/// A report as a JSON document, ending in a newline.
+pub(super) fn json(report: &impl Serialize) -> String {
+    let mut text = serde_json::to_string_pretty(report).expect("a report is plain numbers and texts");
+    text.push('\n');
+    text
 }

@@ -20,7 +20,7 @@ use crate::linkage::Pose;
 
 /// A branch whose distance from merging is below this, relative to the leg's lengths, is written +: a working mode cannot be
 /// told from its twin there.
-const MERGED: f64 = 1e-12;
+pub(super) const MERGED: f64 = 1e-12;
 
 /// A leg's joint values, base first; lengths and radians.
 pub(super) type Joints = [f64; 3];
@@ -168,15 +168,75 @@ pub(super) fn reach(leg: &Leg, pose: &Pose) -> Reach {
     match half {
         Err(miss) => Reach::Misses(miss),
         Ok(half) => {
-            let values = if half == 0.0 { vec![middle] } else { vec![middle + half, middle - half] };
-            let ways = values.into_iter().filter_map(|value| {
+            // A pair has merged at half 0, and at half a turn where the folded leg comes from both sides.
+            let single = half == 0.0 || (leg.joints[joint] == R && half == std::f64::consts::PI);
+            let values = if single { vec![middle + half] } else { vec![middle + half, middle - half] };
+            let mut ways = Vec::new();
+            for value in values {
                 let mut held = [0.0; 3];
                 held[joint] = value;
-                read_off(leg, &LockedLeg::new(leg, &[(joint, value)]), &held, pose)
-            });
-            Reach::Ways(ways.collect())
+                let locked = LockedLeg::new(leg, &[(joint, value)]);
+                match along_parallel_sliders(&locked, &held, pose) {
+                    Some(Err(miss)) => return Reach::Misses(miss),
+                    Some(Ok(joints)) => ways.push(principal(leg, joints)),
+                    None => ways.extend(read_off(leg, &locked, &held, pose)),
+                }
+            }
+            Reach::Ways(ways)
         }
     }
+}
+
+/// Where the two free sliders of a leg are parallel: joint values with the second one at zero, since any share of the travel does,
+/// or by how much the leg misses the pose sideways. `None` where they are not parallel, or not two.
+fn along_parallel_sliders(locked: &LockedLeg, held: &Joints, pose: &Pose) -> Option<Result<Joints, f64>> {
+    let (&[(i, P), (j, P)], [middle]) = (&locked.passive[..], &locked.between[..]) else { return None };
+    if unit(middle.direction).y.abs() > MERGED {
+        return None;
+    }
+    let wanted = locked.near.inverse().then(&Placement::of_pose(pose)).then(&locked.far).at;
+    let miss = (wanted.y - middle.at.y).abs();
+    if miss > MERGED * (wanted.norm() + middle.at.norm()) {
+        return Some(Err(miss));
+    }
+    let mut joints = *held;
+    [joints[i], joints[j]] = [wanted.x - middle.at.x, 0.0];
+    Some(Ok(joints))
+}
+
+/// Why the joints of a leg are not determined by the pose, each with its meaning for this leg type.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Indeterminate {
+    /// The target lies on the leg's base pivot, which turns freely.
+    BasePivot,
+    /// Two sliders share a travel.
+    Sliders,
+}
+
+/// What the pose leaves open in a leg that reaches it in these joint values.
+pub(super) fn indeterminate(leg: &Leg, joints: &Joints) -> Option<Indeterminate> {
+    let frames = frames(leg, joints);
+    let size = leg.links[0].at.norm() + leg.links[1].at.norm() + joints[1].abs();
+    let on_base = (frames[2].at - frames[0].at).norm() <= MERGED * size || size == 0.0;
+    let parallel = |a: &Placement, b: &Placement| {
+        let (a, b) = (unit(a.direction), unit(b.direction));
+        (a.x * b.y - a.y * b.x).abs() <= MERGED
+    };
+    match leg.joints {
+        // A zero stroke beside an offset is no zero distance; two equal links folded together are one.
+        [R, R, R] | [R, P, R] => on_base.then_some(Indeterminate::BasePivot),
+        [P, P, _] => parallel(&frames[0], &frames[1]).then_some(Indeterminate::Sliders),
+        [P, R, P] => parallel(&frames[0], &frames[2]).then_some(Indeterminate::Sliders),
+        [R, P, P] => parallel(&frames[1], &frames[2]).then_some(Indeterminate::Sliders),
+        _ => None,
+    }
+}
+
+/// The frame before each joint, in the base frame.
+pub(super) fn frames(leg: &Leg, joints: &Joints) -> [Placement; 3] {
+    let second = leg.base.then(&Placement::joint(leg.joints[0], joints[0])).then(&leg.links[0]);
+    let third = second.then(&Placement::joint(leg.joints[1], joints[1])).then(&leg.links[1]);
+    [leg.base, second, third]
 }
 
 /// The angle between two links whose ends are `distance` apart, in [0, pi]; by how much they miss it otherwise.

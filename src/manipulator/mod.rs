@@ -4,14 +4,29 @@
 
 mod catalogue;
 mod describe;
+mod follow;
 mod forward;
 mod frame;
+mod hold;
+mod inverse;
 mod joints;
 mod lock;
+mod locus;
 mod mobility;
+mod screw;
+mod singular;
+mod trace;
+mod velocity;
 
 pub use catalogue::FamilyError;
 pub use describe::{DescriptionError, JointKind, JointsError, JointsReason, Leg, Manipulator, Placement};
+pub use follow::{FollowedPath, PathError, PathEvent, PathEventKind, PathRow, PathSettings};
 pub use forward::{AssemblyModes, ManipulatorMode, Violation};
+pub use inverse::{InverseSpecial, KinematicsError, Unreachable, WorkingMode, WorkingModes};
 pub use lock::{LockError, LockedGroup};
+pub use locus::{LegLocus, LocusError, PlaneCurve, SingularityLocus};
 pub use mobility::Remark;
+pub use screw::{joint_screw, power, reciprocal_wrench, screw_rate};
+pub use singular::{Reading, Singularity, SingularityKind};
+pub use trace::{MapQuantity, PlaneMap, PlaneWindow};
+pub use velocity::{SingularMatrix, Velocity};

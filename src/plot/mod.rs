@@ -7,10 +7,12 @@
 //! ground, filled in colour is actuated, ringed is outside its limits.
 
 mod modes;
+mod plane;
 mod scene;
 mod sheet;
 mod symbols;
 mod triads;
 
 pub use modes::draw_modes;
+pub use plane::{draw_path, draw_singularities};
 pub use triads::draw_assemblies;

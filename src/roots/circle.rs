@@ -189,11 +189,11 @@ impl Cell {
     fn halves(&self) -> (Self, Self) {
         let mut right = self.coefficients;
         let mut left = self.coefficients;
-        for level in 1..=DEGREE {
+        for (level, end) in left.iter_mut().enumerate().skip(1) {
             for k in 0..=DEGREE - level {
                 right[k] = 0.5 * (right[k] + right[k + 1]);
             }
-            left[level] = right[0];
+            *end = right[0];
         }
         let half = Self { width: 0.5 * self.width, depth: self.depth + 1, ..*self };
         (Self { coefficients: left, ..half }, Self { coefficients: right, from: self.from + half.width, ..half })
@@ -336,6 +336,34 @@ mod tests {
         assert_eq!(changes([1.0, 1.0, 0.05, -0.05, -1.0, -1.0, -1.0]), Changes::Open);
         assert_eq!(changes([0.1, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0]), Changes::Lost);
         assert_eq!(changes([1.0, 1.0, -1.0, 1.0, 1.0, 1.0, 1.0]), Changes::Open);
+    }
+
+    #[test]
+    fn halving_alone_stays_within_its_share_of_the_bound() {
+        let mut missed = 0;
+        for seed in 1..200u32 {
+            let coefficients: [f64; 7] =
+                std::array::from_fn(|k| 1.0 / f64::from(seed + 3 * k as u32) - 0.01 * k as f64);
+            let largest = coefficients.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
+            let exact = |x: f64| dyadic(x).expect("finite");
+            let mut truth = coefficients.map(exact);
+            let mut cell = Cell { coefficients, width: 1.0, ..Cell::default() };
+            for depth in 1..6 {
+                cell = cell.halves().1;
+                for level in 1..7 {
+                    for k in 0..7 - level {
+                        truth[k] = (truth[k].clone() + truth[k + 1].clone()) / exact(2.0);
+                    }
+                }
+                let bound = exact(error_at(0.0, largest, depth));
+                for (c, t) in cell.coefficients.iter().zip(&truth) {
+                    let miss = exact(*c) - t.clone();
+                    assert!(miss <= bound && -miss.clone() <= bound);
+                    missed += usize::from(miss != exact(0.0));
+                }
+            }
+        }
+        assert!(missed > 0, "rounding was at work");
     }
 
     #[test]

@@ -60,6 +60,14 @@ const ROUNDED_TO_ZERO: f64 = 1e-9;
 /// Roots closer than this, relative, are lifted together: rounding moves a near-double root by up to 1e-8, a near-triple one by 1e-5
 /// (heuristic).
 const CLUSTERED: f64 = 1e-5;
+/// Newton has settled when its last relative step is below this at a simple root: the next one, squared, is below rounding.
+const SETTLED: f64 = 1e-8;
+/// The same at a multiple root, where steps only halve and rounding hides the rest (heuristic).
+const SETTLED_MULTIPLE: f64 = 1e-5;
+/// A relative step below half a unit in the last place changes nothing any more.
+const NO_STEP: f64 = f64::EPSILON / 2.0;
+/// Singular values of the Jacobian below this part of the largest are rounding: no step is taken in their directions.
+const SILENT: f64 = 1e-14;
 /// Simple solutions above one root closer than this, relative, are one (heuristic).
 const MERGED: f64 = 1e-6;
 /// Likewise where one is singular: Newton stops about 1e-8 from a double solution, 1e-5 from a triple one (heuristic).
@@ -397,7 +405,7 @@ impl Fibres {
         /// Enough to halve a distance of one down to 1e-8 and to find the way there first (heuristic).
         const STEPS: usize = 100;
         // Newton halves the distance to a double solution per step, and stops where rounding hides the rest.
-        let settled = if multiplicity == 1 { 1e-8 } else { 1e-5 };
+        let settled = if multiplicity == 1 { SETTLED } else { SETTLED_MULTIPLE };
         let mut best: Option<(Vec<Complex64>, f64)> = None;
         let mut idle = 0;
         let mut last_step = f64::INFINITY;
@@ -425,7 +433,7 @@ impl Fibres {
             for (x, dx) in values.iter_mut().zip(&step) {
                 *x -= dx;
             }
-            if last_step < 1e-16 {
+            if last_step < NO_STEP {
                 break;
             }
         }
@@ -471,7 +479,7 @@ impl Fibres {
         let svd = jacobian.try_svd(true, true, f64::EPSILON, 1000)?;
         let largest = svd.singular_values.max();
         // Directions in which the equations say nothing in floats get no step.
-        let step = svd.solve(&value, 1e-14 * largest).ok()?;
+        let step = svd.solve(&value, SILENT * largest).ok()?;
         let smallest = if m < n { 0.0 } else { svd.singular_values.min() };
         let step = step.iter().zip(&scales).map(|(dx, scale)| dx * *scale).collect();
         Some((step, if largest > 0.0 { smallest / largest } else { 0.0 }))

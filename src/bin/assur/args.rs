@@ -49,6 +49,97 @@ pub(crate) enum Command {
         #[command(flatten)]
         asked: Asked,
     },
+    /// Finds every working mode for a pose: all joints of each leg, limits that it violates.
+    #[command(
+        after_help = "A mode is named by one sign a leg: + is the larger value of the prismatic joint in which its two ways differ \
+        (RPR: joint 2, PRR: joint 1, RRP: joint 3); for RRR, link 1 x link 2 > 0.\n\
+        Example:  assur inverse examples/3-rrr.toml --pose=5.5,4,17"
+    )]
+    Inverse {
+        /// Model file, TOML or JSON; - is standard input.
+        model: PathBuf,
+        /// The platform's pose; the angle in the model file's unit.
+        #[arg(long, value_name = "X,Y,PHI", value_delimiter = ',', required = true, allow_hyphen_values = true)]
+        pose: Vec<f64>,
+        /// Prints one JSON document; angles in radians.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Tells rates, accelerations, forces and the kind of singularity in a pose.
+    #[command(
+        after_help = "Rates and accelerations are answered both ways, as the platform's (x', y', phi') and as the actuators'; \
+        they are per unit of time, angles in radians.\n\
+        Example:  assur velocity examples/3-rrr.toml --pose=5.5,4,17 --mode=+++ --rates=1,0,0 --wrench=0,-10,0"
+    )]
+    Velocity {
+        /// Model file, TOML or JSON; - is standard input.
+        model: PathBuf,
+        /// The platform's pose; the angle in the model file's unit.
+        #[arg(long, value_name = "X,Y,PHI", value_delimiter = ',', required = true, allow_hyphen_values = true)]
+        pose: Vec<f64>,
+        /// The working mode, one sign a leg.
+        #[arg(long, value_name = "SIGNS", allow_hyphen_values = true)]
+        mode: Option<String>,
+        /// Rates of the platform or the actuators.
+        #[arg(long, value_name = "A,B,C", value_delimiter = ',', allow_hyphen_values = true)]
+        rates: Vec<f64>,
+        /// Accelerations at these rates.
+        #[arg(long, value_name = "A,B,C", value_delimiter = ',', allow_hyphen_values = true)]
+        accelerations: Vec<f64>,
+        /// An external force and moment on the platform, about its origin.
+        #[arg(long, value_name = "FX,FY,M", value_delimiter = ',', allow_hyphen_values = true)]
+        wrench: Vec<f64>,
+        /// The length that weighs turning against moving; the platform's size where it is not given.
+        #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+        length: Option<f64>,
+        /// Prints one JSON document; angles in radians.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Finds where the manipulator is singular for an orientation, and maps how well it is held.
+    #[command(
+        after_help = "Example:  assur singularities examples/3-rrr.toml --phi=17 --svg loci.svg --map dexterity --csv map.csv"
+    )]
+    Singularities {
+        /// Model file, TOML or JSON; - is standard input.
+        model: PathBuf,
+        /// The orientation, in the model file's unit.
+        #[arg(long, value_name = "PHI", allow_hyphen_values = true)]
+        phi: f64,
+        /// One working mode; all without it. A map is of this mode, or of the first.
+        #[arg(long, value_name = "SIGNS", allow_hyphen_values = true)]
+        mode: Option<String>,
+        /// A quantity over the plane: dexterity, accuracy or stiffness.
+        #[arg(long, value_enum)]
+        map: Option<Quantity>,
+        /// Writes the map into a CSV file.
+        #[arg(long, value_name = "FILE", requires = "map")]
+        csv: Option<PathBuf>,
+        /// Leaves out the exact curve of all modes, which takes seconds where its degree is high.
+        #[arg(long)]
+        no_polynomial: bool,
+        #[command(flatten)]
+        shown: Shown,
+    },
+    /// Follows one assembly mode through rows of actuator values.
+    #[command(
+        after_help = "Example:  assur path examples/3-rpr.toml --through path.csv --output followed.csv --svg path.svg"
+    )]
+    Path {
+        /// Model file, TOML or JSON; - is standard input.
+        model: PathBuf,
+        /// Rows of actuator values: CSV with the header q1,q2,q3, or JSON lines (.jsonl).
+        #[arg(long, value_name = "FILE")]
+        through: PathBuf,
+        /// The mode at the first row, by its pose; the first mode without it.
+        #[arg(long, value_name = "X,Y,PHI", value_delimiter = ',', allow_hyphen_values = true)]
+        from: Vec<f64>,
+        /// Writes the rows into a file: CSV, or JSON lines (.jsonl); angles in radians.
+        #[arg(long, short, value_name = "FILE")]
+        output: Option<PathBuf>,
+        #[command(flatten)]
+        shown: Shown,
+    },
     /// Finds every way to put a triad together.
     #[command(after_help = "Example:  assur triad problem.json --complex")]
     Triad {
@@ -114,4 +205,29 @@ pub(crate) struct Asked {
     /// Draws all modes into a PNG file.
     #[arg(long, value_name = "FILE")]
     pub(crate) png: Option<PathBuf>,
+}
+
+/// How an answer with a picture is to be shown.
+#[derive(Args)]
+pub(crate) struct Shown {
+    /// Prints one JSON document; angles in radians.
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Draws into an SVG file.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) svg: Option<PathBuf>,
+    /// Draws into a PNG file.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) png: Option<PathBuf>,
+}
+
+/// What a map shows.
+#[derive(Clone, Copy, clap::ValueEnum)]
+pub(crate) enum Quantity {
+    /// Smallest over largest singular value of the map from inputs to pose.
+    Dexterity,
+    /// Largest displacement of the reference point for inputs off by one unit.
+    Accuracy,
+    /// Smallest stiffness for actuators of stiffness one.
+    Stiffness,
 }

@@ -11,6 +11,8 @@ struct Derivation {
     document: fn() -> String,
 }
 
+#[path = "../../../derivations/acceleration_term.rs"]
+mod acceleration_term;
 #[path = "../../../derivations/charts.rs"]
 mod charts;
 #[path = "../../../derivations/degree_table.rs"]
@@ -19,19 +21,29 @@ mod degree_table;
 mod filter_bound;
 #[path = "../../../derivations/leg_reductions.rs"]
 mod leg_reductions;
+#[path = "../../../derivations/prr_rows.rs"]
+mod prr_rows;
 #[path = "../../../derivations/rp_rp_rp_octic.rs"]
 mod rp_rp_rp_octic;
+#[path = "../../../derivations/singularity_degrees.rs"]
+mod singularity_degrees;
 #[path = "../../../derivations/triad_sextic.rs"]
 mod triad_sextic;
+#[path = "../../../derivations/velocity_row.rs"]
+mod velocity_row;
 
 /// Every derivation is a program of its own as well; here only its text is used.
-const _: [fn(); 6] = [
+const _: [fn(); 10] = [
+    acceleration_term::main,
     charts::main,
     degree_table::main,
     filter_bound::main,
     leg_reductions::main,
+    prr_rows::main,
     rp_rp_rp_octic::main,
+    singularity_degrees::main,
     triad_sextic::main,
+    velocity_row::main,
 ];
 
 /// The derivations, in reading order.
@@ -60,6 +72,26 @@ const DERIVATIONS: &[Derivation] = &[
         name: "leg_reductions",
         claim: "the 21 leg types and the dyads they leave when their driver is held",
         document: leg_reductions::document,
+    },
+    Derivation {
+        name: "velocity_row",
+        claim: "the velocity row of every leg is the cross product of its idle joints' screws",
+        document: velocity_row::document,
+    },
+    Derivation {
+        name: "acceleration_term",
+        claim: "the quadratic term of the accelerations, for any leg and for 3-PRR",
+        document: acceleration_term::document,
+    },
+    Derivation {
+        name: "prr_rows",
+        claim: "the matrices of 3-PRR as printed in 1996 and as corrected",
+        document: prr_rows::document,
+    },
+    Derivation {
+        name: "singularity_degrees",
+        claim: "degrees of the curves of type 2 at a fixed orientation, for the 18 leg types",
+        document: singularity_degrees::document,
     },
     Derivation {
         name: "filter_bound",

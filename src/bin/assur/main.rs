@@ -2,6 +2,7 @@
 
 mod args;
 mod derive;
+mod kinematics;
 mod output;
 mod png;
 mod tables;
@@ -10,10 +11,10 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use args::{Arguments, Asked, Command};
-use assur::Manipulator;
 use assur::exchange::{
     AngleUnit, CheckReport, ClaimedPoses, ForwardReport, ModelFile, Subject, VerifyReport, read_triad,
 };
+use assur::{LockError, Manipulator};
 use clap::{CommandFactory, Parser};
 use output::{Failure, Files};
 
@@ -32,6 +33,18 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             output::print(&if json { report.to_json() } else { tables::check(&report) })
         }
         Command::Forward { model, inputs, asked } => forward(&model, &inputs, &asked),
+        Command::Inverse { model, pose, json } => kinematics::inverse(&model, &pose, json),
+        Command::Velocity { model, pose, mode, rates, accelerations, wrench, length, json } => {
+            let asked = kinematics::AskedMotion { rates, accelerations, wrench, length };
+            kinematics::velocity(&model, &pose, mode.as_deref(), &asked, json)
+        }
+        Command::Singularities { model, phi, mode, map, csv, no_polynomial, shown } => {
+            let asked = kinematics::AskedLoci { phi, mode, map, csv, polynomial: !no_polynomial };
+            kinematics::singularities(&model, &asked, &shown)
+        }
+        Command::Path { model, through, from, output, shown } => {
+            kinematics::path(&model, &through, &from, output.as_deref(), &shown)
+        }
         Command::Triad { file, asked } => triad(&file, &asked),
         Command::Verify { report, model, tolerance, json } => verify(&report, &model, tolerance, json),
         Command::Derive { name: Some(name), .. } => output::print(&derive::document(&name)?),
@@ -66,13 +79,26 @@ fn forward(path: &Path, inputs: &[f64], asked: &Asked) -> Result<(), Failure> {
     let robot = &model.manipulator;
     let inputs = tables::inputs_in_radians(robot, inputs, model.angle_unit);
     let answer = if asked.certify { robot.certify(&inputs) } else { robot.forward(&inputs) };
-    let answer = answer.map_err(|error| Failure::About(path.display().to_string(), error.to_string()))?;
+    let answer = answer.map_err(|error| Failure::About(path.display().to_string(), as_written(error, &model)))?;
     Files::default().with_drawings(asked, || assur::plot::draw_modes(robot, &answer))?.write()?;
     output::print(&if asked.json {
         ForwardReport::of_manipulator(&answer).to_json()
     } else {
         tables::forward(&model, &answer, asked)
     })
+}
+
+/// What is wrong with the inputs, angles in the unit of the model file.
+fn as_written(error: LockError, model: &ModelFile) -> String {
+    let error = match error {
+        LockError::OutOfRange { leg, joint, value, limit } => {
+            let kind = model.manipulator.legs[leg - 1].joints[joint - 1];
+            let written = |value| model.angle_unit.joint_from_rad(kind, value);
+            LockError::OutOfRange { leg, joint, value: written(value), limit: limit.map(written) }
+        }
+        other => other,
+    };
+    error.to_string()
 }
 
 fn triad(path: &Path, asked: &Asked) -> Result<(), Failure> {

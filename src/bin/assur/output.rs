@@ -21,6 +21,8 @@ pub(crate) enum Failure {
     #[error(transparent)]
     Family(#[from] FamilyError),
     #[error(transparent)]
+    PathFile(#[from] assur::exchange::PathFileError),
+    #[error(transparent)]
     Derivation(#[from] UnknownDerivation),
     /// A file and what is wrong with the question about it.
     #[error("{0}: {1}")]
@@ -64,16 +66,26 @@ impl Files {
 
     /// The drawings that are asked for, drawn at most once.
     pub(crate) fn with_drawings(self, asked: &Asked, draw: impl Fn() -> String) -> Result<Self, Failure> {
-        if asked.svg.is_none() && asked.png.is_none() {
+        self.with_pictures(asked.svg.as_deref(), asked.png.as_deref(), draw)
+    }
+
+    /// A drawing as SVG, as PNG, as both or not at all.
+    pub(crate) fn with_pictures(
+        self,
+        svg: Option<&Path>,
+        png: Option<&Path>,
+        draw: impl Fn() -> String,
+    ) -> Result<Self, Failure> {
+        if svg.is_none() && png.is_none() {
             return Ok(self);
         }
-        let svg = draw();
+        let drawing = draw();
         let mut files = self;
-        if let Some(path) = &asked.png {
-            files = files.with(path, png::render(&svg)?);
+        if let Some(path) = png {
+            files = files.with(path, png::render(&drawing)?);
         }
-        if let Some(path) = &asked.svg {
-            files = files.with(path, svg.into_bytes());
+        if let Some(path) = svg {
+            files = files.with(path, drawing.into_bytes());
         }
         Ok(files)
     }

@@ -10,11 +10,11 @@ use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyl
 
 use crate::args::Asked;
 
-const STRONG: Style = Style::new().bold();
-const ALARM: Style = Style::new().fg_color(Some(anstyle::Color::Ansi(AnsiColor::Red)));
+pub(crate) const STRONG: Style = Style::new().bold();
+pub(crate) const ALARM: Style = Style::new().fg_color(Some(anstyle::Color::Ansi(AnsiColor::Red)));
 /// Digits of poses, and of everything beside them.
-const POSE_DIGITS: i32 = 12;
-const SIDE_DIGITS: i32 = 7;
+pub(crate) const POSE_DIGITS: i32 = 12;
+pub(crate) const SIDE_DIGITS: i32 = 7;
 /// Digits of a box's middle.
 const BOX_DIGITS: i32 = 16;
 /// Digits of inputs as written for people.
@@ -277,7 +277,7 @@ fn inputs_as_given(robot: &Manipulator, inputs: &[f64], unit: AngleUnit) -> Stri
     robot.actuated_joints().zip(inputs).map(value).collect::<Vec<_>>().join(", ")
 }
 
-fn table<T: Into<comfy_table::Cell> + Clone>(header: &[T]) -> Table {
+pub(crate) fn table<T: Into<comfy_table::Cell> + Clone>(header: &[T]) -> Table {
     let mut table = Table::new();
     let style = TableStyle::new().header_separator(LineStyle::none().fill('─').junction('─'));
     table.load_style(style).set_content_arrangement(ContentArrangement::Dynamic);
@@ -286,17 +286,17 @@ fn table<T: Into<comfy_table::Cell> + Clone>(header: &[T]) -> Table {
     table
 }
 
-fn heading(text: &mut String, title: &str) {
+pub(crate) fn heading(text: &mut String, title: &str) {
     line(text, format_args!("{STRONG}{title}{STRONG:#}"));
 }
 
-fn line(text: &mut String, content: std::fmt::Arguments) {
+pub(crate) fn line(text: &mut String, content: std::fmt::Arguments) {
     // Writing to a String cannot fail.
     let _ = writeln!(text, "{content}");
 }
 
 /// A number with so many significant digits, without needless zeros.
-fn digits(value: f64, significant: i32) -> String {
+pub(crate) fn digits(value: f64, significant: i32) -> String {
     let magnitude = if value == 0.0 { 0 } else { value.abs().log10().floor() as i32 };
     if !(-5..significant).contains(&magnitude) {
         return format!("{value:.*e}", usize::try_from(significant - 1).unwrap_or(0));

@@ -1,0 +1,265 @@
+//! Pictures of the plane: singular curves, maps, paths.
+
+use nalgebra::Vector2;
+use svg::Document;
+use svg::node::element::{Circle, ClipPath, Definitions, Group, Line, Path, Polyline, Rectangle, Text};
+
+use super::scene::number;
+use super::symbols::{ALARM, INK, QUIET};
+use crate::manipulator::{FollowedPath, LegLocus, Manipulator, PathEventKind, PlaneCurve, PlaneMap, PlaneWindow};
+
+/// Side of the picture of the plane, room around it and for the legend beside it, in pixels.
+const SIDE: f64 = 560.0;
+const LEFT: f64 = 70.0;
+const TOP: f64 = 72.0;
+const BESIDE: f64 = 215.0;
+const BOTTOM: f64 = 46.0;
+/// Colours of curves and modes.
+const COLOURS: [&str; 8] = ["#c0392b", "#2471a3", "#1e8449", "#b7950b", "#7d3c98", "#d35400", "#117a65", "#5d6d7e"];
+
+/// From positions to pixels.
+struct Chart {
+    window: PlaneWindow,
+    scale: f64,
+    size: Vector2<f64>,
+}
+
+impl Chart {
+    fn new(window: &PlaneWindow) -> Self {
+        let extent = (window.high - window.low).map(|side| side.max(f64::MIN_POSITIVE));
+        let scale = SIDE / extent.max();
+        Self { window: *window, scale, size: extent * scale }
+    }
+
+    fn x(&self, p: Vector2<f64>) -> f64 {
+        LEFT + (p.x - self.window.low.x) * self.scale
+    }
+
+    fn y(&self, p: Vector2<f64>) -> f64 {
+        TOP + (self.window.high.y - p.y) * self.scale
+    }
+
+    fn document(&self, title: &str, subtitle: &str, inside: Group, legend: Group) -> String {
+        let (width, height) = (LEFT + self.size.x + BESIDE, TOP + self.size.y + BOTTOM);
+        let frame =
+            || Rectangle::new().set("x", LEFT).set("y", TOP).set("width", self.size.x).set("height", self.size.y);
+        let mut document = Document::new()
+            .set("width", width)
+            .set("height", height)
+            .set("viewBox", (0, 0, width, height))
+            .set("font-family", "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif")
+            .add(Rectangle::new().set("width", width).set("height", height).set("fill", "#ffffff"))
+            .add(Definitions::new().add(ClipPath::new().set("id", "plane").add(frame())))
+            .add(label(title, LEFT, 28.0, 18.0).set("font-weight", "bold"))
+            .add(label(subtitle, LEFT, 50.0, 12.5).set("fill", QUIET))
+            .add(inside.set("clip-path", "url(#plane)"))
+            .add(frame().set("fill", "none").set("stroke", INK));
+        for axis in 0..2 {
+            for tick in ticks(self.window.low[axis], self.window.high[axis]) {
+                let at = if axis == 0 {
+                    Vector2::new(tick, self.window.low.y)
+                } else {
+                    Vector2::new(self.window.low.x, tick)
+                };
+                let (x, y) = (self.x(at), self.y(at));
+                let (to, place, anchor) = if axis == 0 {
+                    ((x, y + 5.0), (x, y + 18.0), "middle")
+                } else {
+                    ((x - 5.0, y), (x - 8.0, y + 4.0), "end")
+                };
+                let mark = Line::new().set("x1", x).set("y1", y).set("x2", to.0).set("y2", to.1).set("stroke", INK);
+                document =
+                    document.add(mark).add(label(&number(tick), place.0, place.1, 11.0).set("text-anchor", anchor));
+            }
+        }
+        let names = [("x", LEFT + self.size.x / 2.0, height - 10.0), ("y", 14.0, TOP + self.size.y / 2.0)];
+        for (name, x, y) in names {
+            document = document.add(label(name, x, y, 13.0).set("font-style", "italic"));
+        }
+        document.add(legend).to_string()
+    }
+
+    fn beside(&self) -> f64 {
+        LEFT + self.size.x + 16.0
+    }
+}
+
+/// Round numbers in a range, four to nine of them.
+fn ticks(low: f64, high: f64) -> Vec<f64> {
+    let decade = 10_f64.powf(((high - low) / 4.0).log10().floor());
+    let step = [5.0, 2.0, 1.0].map(|s| s * decade).into_iter().find(|s| *s <= (high - low) / 4.0).unwrap_or(decade);
+    let first = (low / step).ceil() as i64;
+    (first..first + 12).map(|k| k as f64 * step).take_while(|tick| *tick <= high).collect()
+}
+
+fn label(content: &str, x: f64, y: f64, size: f64) -> Text {
+    Text::new(content).set("x", x).set("y", y).set("font-size", size).set("fill", INK)
+}
+
+/// Where a manipulator is singular for a fixed orientation: each mode's curve of type 2 in its colour, the legs' curves of type 1 dashed; a map under
+/// them where one is given.
+pub fn draw_singularities(
+    robot: &Manipulator,
+    phi: f64,
+    window: &PlaneWindow,
+    modes: &[(String, Vec<[Vector2<f64>; 2]>)],
+    legs: &[LegLocus],
+    map: Option<&PlaneMap>,
+) -> String {
+    let chart = Chart::new(window);
+    let mut inside = Group::new();
+    let mut legend = Group::new();
+    let x = chart.beside();
+    let mut y = TOP + 12.0;
+    if let Some(map) = map {
+        let known = || map.values.iter().flatten().copied();
+        let (low, high) = known().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+        // Accuracy and stiffness run over decades: quantiles keep a few extremes from washing out the rest.
+        let mut sorted: Vec<f64> = known().collect();
+        sorted.sort_by(f64::total_cmp);
+        let shade = |value: f64| sorted.partition_point(|v| *v < value) as f64 / sorted.len().max(1) as f64;
+        let cell = chart.size.component_div(&Vector2::new(map.size[0] as f64, map.size[1] as f64));
+        for (index, value) in map.values.iter().enumerate() {
+            let Some(value) = value else { continue };
+            let p = map.at(index % map.size[0], index / map.size[0]);
+            let rectangle = Rectangle::new()
+                .set("x", format!("{:.2}", chart.x(p) - cell.x / 2.0))
+                .set("y", format!("{:.2}", chart.y(p) - cell.y / 2.0))
+                .set("width", format!("{:.2}", cell.x + 0.3))
+                .set("height", format!("{:.2}", cell.y + 0.3))
+                .set("fill", colour(shade(*value)));
+            inside = inside.add(rectangle);
+        }
+        legend = legend.add(label(&format!("{} ({})", map.quantity.name(), map.signs), x, y, 12.0));
+        for step in 0..=10 {
+            let part = f64::from(step) / 10.0;
+            let bar = Rectangle::new()
+                .set("x", x)
+                .set("y", y + 8.0 + 100.0 * (1.0 - part))
+                .set("width", 14)
+                .set("height", 11)
+                .set("fill", colour(part));
+            legend = legend.add(bar);
+        }
+        for (value, place) in [(high, y + 18.0), (low, y + 118.0)] {
+            if value.is_finite() {
+                legend = legend.add(label(&number(value), x + 20.0, place, 11.0));
+            }
+        }
+        y += 150.0;
+    }
+    for (signs, pieces) in modes {
+        let colour = COLOURS[modes.iter().position(|m| m.0 == *signs).unwrap_or(0) % COLOURS.len()];
+        let data: String = pieces
+            .iter()
+            .map(|[p, q]| format!("M{:.2} {:.2}L{:.2} {:.2}", chart.x(*p), chart.y(*p), chart.x(*q), chart.y(*q)))
+            .collect();
+        if !data.is_empty() {
+            inside = inside
+                .add(Path::new().set("d", data).set("stroke", colour).set("stroke-width", 1.8).set("fill", "none"));
+        }
+        let sample = Line::new().set("x1", x).set("x2", x + 22.0).set("y1", y - 4.0).set("y2", y - 4.0);
+        let shown = if pieces.is_empty() { format!("{signs} (none here)") } else { signs.clone() };
+        legend = legend.add(sample.set("stroke", colour).set("stroke-width", 2)).add(label(
+            &format!("type 2, {}", shown.replace('-', "−")),
+            x + 28.0,
+            y,
+            11.5,
+        ));
+        y += 18.0;
+    }
+    for leg in legs {
+        for curve in &leg.curves {
+            inside = match *curve {
+                PlaneCurve::Circle { center, radius } => inside.add(
+                    Circle::new()
+                        .set("cx", chart.x(center))
+                        .set("cy", chart.y(center))
+                        .set("r", (radius * chart.scale).max(2.0))
+                        .set("fill", "none")
+                        .set("stroke", QUIET)
+                        .set("stroke-dasharray", "6 4"),
+                ),
+                PlaneCurve::Line { point, direction } => {
+                    let far = direction * 3.0 * (window.high - window.low).norm();
+                    let (p, q) = (point - far, point + far);
+                    inside.add(
+                        Line::new()
+                            .set("x1", chart.x(p))
+                            .set("y1", chart.y(p))
+                            .set("x2", chart.x(q))
+                            .set("y2", chart.y(q))
+                            .set("stroke", QUIET)
+                            .set("stroke-dasharray", "6 4"),
+                    )
+                }
+            };
+        }
+    }
+    let sample = Line::new().set("x1", x).set("x2", x + 22.0).set("y1", y - 4.0).set("y2", y - 4.0);
+    legend = legend.add(sample.set("stroke", QUIET).set("stroke-dasharray", "6 4")).add(label(
+        "type 1, ends of a leg's reach",
+        x + 28.0,
+        y,
+        10.5,
+    ));
+    let title = if robot.name.is_empty() { robot.family() } else { robot.name.clone() };
+    let subtitle = format!("{}  ·  singular positions at φ = {}°", robot.family(), number(phi.to_degrees()));
+    chart.document(&title, &subtitle, inside, legend)
+}
+
+/// From low to high: dark blue, green, yellow.
+fn colour(part: f64) -> String {
+    let stops =
+        [[68.0, 1.0, 84.0], [59.0, 82.0, 139.0], [33.0, 145.0, 140.0], [94.0, 201.0, 98.0], [253.0, 231.0, 37.0]];
+    let place = part.clamp(0.0, 1.0) * 4.0;
+    let k = (place.floor() as usize).min(3);
+    let mix = |c: usize| (stops[k][c] + (place - k as f64) * (stops[k + 1][c] - stops[k][c])).round() as u8;
+    format!("#{:02x}{:02x}{:02x}", mix(0), mix(1), mix(2))
+}
+
+/// The way of the platform's origin along a path, with its events.
+pub fn draw_path(robot: &Manipulator, path: &FollowedPath) -> String {
+    let points: Vec<Vector2<f64>> = path.rows.iter().map(|row| Vector2::new(row.pose.x, row.pose.y)).collect();
+    let all = || points.iter().copied().chain(path.events.iter().map(|e| Vector2::new(e.pose.x, e.pose.y)));
+    let infinite = Vector2::repeat(f64::INFINITY);
+    let (low, high) = all().fold((infinite, -infinite), |(l, h), p| (l.inf(&p), h.sup(&p)));
+    let side = (high - low).max();
+    let room = if side > 0.0 { 0.12 * side } else { 1.0 };
+    let window = PlaneWindow { low: low - Vector2::repeat(room), high: high + Vector2::repeat(room) };
+    let chart = Chart::new(&window);
+    let line: Vec<String> = points.iter().map(|p| format!("{:.2},{:.2}", chart.x(*p), chart.y(*p))).collect();
+    let curve = Polyline::new()
+        .set("points", line.join(" "))
+        .set("fill", "none")
+        .set("stroke", COLOURS[1])
+        .set("stroke-width", 2);
+    let mut inside = Group::new().add(curve);
+    let dot = |p: Vector2<f64>, fill: &str, r: f64| {
+        Circle::new().set("cx", chart.x(p)).set("cy", chart.y(p)).set("r", r).set("fill", fill.to_owned())
+    };
+    if let Some(first) = points.first() {
+        inside = inside.add(dot(*first, COLOURS[2], 4.5));
+    }
+    for event in &path.events {
+        let fill = if matches!(event.kind, PathEventKind::Limit { .. }) { COLOURS[3] } else { ALARM };
+        inside = inside.add(dot(Vector2::new(event.pose.x, event.pose.y), fill, 4.5));
+    }
+    let (x, mut y) = (chart.beside(), TOP + 12.0);
+    let mut legend = Group::new();
+    for (fill, text) in [(COLOURS[2], "start"), (ALARM, "modes meet, path stops"), (COLOURS[3], "limit crossed")] {
+        let mark = Circle::new().set("cx", x + 5.0).set("cy", y - 4.0).set("r", 4.5).set("fill", fill);
+        legend = legend.add(mark).add(label(text, x + 18.0, y, 11.5));
+        y += 18.0;
+    }
+    let id = path.rows.first().map_or(0, |row| row.id);
+    let end = match (path.complete, path.closed_in) {
+        (true, Some(last)) if last != id => format!("closed, ends in mode {last}"),
+        (true, Some(_)) => "closed, ends in the same mode".to_owned(),
+        (true, None) => "complete".to_owned(),
+        (false, _) => "stopped".to_owned(),
+    };
+    let title = if robot.name.is_empty() { robot.family() } else { robot.name.clone() };
+    let subtitle = format!("{}  ·  mode {id} along {} rows  ·  {end}", robot.family(), path.rows.len());
+    chart.document(&title, &subtitle, inside, legend)
+}

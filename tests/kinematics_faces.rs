@@ -1,0 +1,119 @@
+//! `inverse`, `velocity`, `singularities` and `path` on the command line.
+#![cfg(feature = "cli")]
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn model(name: &str) -> String {
+    format!("{}/examples/{name}", env!("CARGO_MANIFEST_DIR"))
+}
+
+fn run(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_assur")).args(arguments).output().expect("the program starts")
+}
+
+fn json(arguments: &[&str]) -> serde_json::Value {
+    let output = run(arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).expect("one JSON document")
+}
+
+/// The one line of an error.
+fn refused(arguments: &[&str], status: i32) -> String {
+    let output = run(arguments);
+    assert_eq!(output.status.code(), Some(status), "{arguments:?}");
+    assert!(output.stdout.is_empty());
+    String::from_utf8(output.stderr).expect("text")
+}
+
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    std::fs::create_dir_all(&folder).expect("a folder for files");
+    folder
+}
+
+#[test]
+fn inverse_lists_working_modes() {
+    let file = model("3-rpr.toml");
+    let forward = json(&["forward", &file, "--inputs=14.98,15.38,12", "--json"]);
+    let pose: Vec<String> =
+        forward["modes"][2]["pose"].as_array().expect("a pose").iter().map(ToString::to_string).collect();
+    let answer = json(&["inverse", &file, &format!("--pose={}", pose.join(",")), "--json"]);
+    assert_eq!(answer["schema"], "assur/inverse/1");
+    assert_eq!(answer["modes"].as_array().expect("modes").len(), 8);
+    let stroke = answer["modes"][0]["joints"][0][1].as_f64().expect("a stroke");
+    assert!((stroke - 14.98).abs() < 1e-12 && answer["modes"][0]["signs"] == "+++");
+    let table = run(&["inverse", &file, "--pose=1,2,0.5"]);
+    assert!(String::from_utf8_lossy(&table.stdout).contains("8 working modes"));
+}
+
+#[test]
+fn velocity_names_the_singularity() {
+    let file = model("3-rpr.toml");
+    let answer =
+        json(&["velocity", &file, "--pose=1,2,0.5", "--mode=+-+", "--rates=1,0,0", "--wrench=0,-1,0", "--json"]);
+    assert_eq!((answer["schema"].as_str(), answer["singularity"].as_str()), (Some("assur/velocity/1"), Some("none")));
+    assert!(answer["rates"]["inputs_if_pose"].is_array() && answer["wrench"]["actuator_forces"].is_array());
+    // Leg 1 has its platform pivot in the origin: its strut has no length there.
+    let answer = json(&["velocity", &file, "--pose=0,0,0.5", "--json"]);
+    assert_eq!((&answer["singularity"], &answer["idle_legs"][0]), (&"type 1".into(), &1.into()));
+}
+
+#[test]
+fn singularities_are_drawn_and_mapped() {
+    let folder = folder("singularities");
+    let (svg, csv) = (folder.join("loci.svg"), folder.join("map.csv"));
+    let [svg, csv] = [&svg, &csv].map(|path| path.to_str().expect("a path"));
+    let file = model("3-rpr.toml");
+    let answer =
+        json(&["singularities", &file, "--phi=0.3", "--map", "dexterity", "--csv", csv, "--svg", svg, "--json"]);
+    assert_eq!(answer["type_2"]["polynomial"]["degree"], 2);
+    assert_eq!(answer["type_2"]["modes"].as_array().expect("modes").len(), 8);
+    assert!(std::fs::read_to_string(svg).expect("a drawing").contains("</svg>"));
+    assert!(std::fs::read_to_string(csv).expect("a map").starts_with("x,y,dexterity\n"));
+}
+
+#[test]
+fn paths_are_followed_and_bad_rows_named() {
+    let folder = folder("paths");
+    let write = |name: &str, text: &str| {
+        let path = folder.join(name);
+        std::fs::write(&path, text).expect("a file");
+        path.to_str().expect("a path").to_owned()
+    };
+    let file = model("3-rpr.toml");
+    let through = write("path.csv", "q1,q2,q3\n14.98,15.38,12\n14.98,15.2,12\n14.98,15.38,12\n");
+    let out = folder.join("out.csv");
+    let out = out.to_str().expect("a path");
+    let answer = json(&["path", &file, "--through", &through, "--output", out, "--json"]);
+    assert_eq!((&answer["complete"], &answer["closed_in"]), (&true.into(), &1.into()));
+    assert_eq!(std::fs::read_to_string(out).expect("rows").lines().count(), 4);
+
+    let bad = write("bad.csv", "q1,q2,q3\n14.98,15.38,12\n14.98,wide,12\n");
+    let never = folder.join("never.csv");
+    let never = never.to_str().expect("a path");
+    let message = refused(&["path", &file, "--through", &bad, "--output", never], 1);
+    assert!(message.contains("bad.csv: row 2: q2: \"wide\" must be a finite number"), "{message}");
+    assert!(message.lines().count() == 1 && !Path::new(never).exists());
+    let short = write("short.csv", "q1,q2,q3\n1,2\n");
+    assert!(refused(&["path", &file, "--through", &short], 1).contains("row 1: 2 values, must be 3"));
+}
+
+#[test]
+fn what_cannot_be_asked_is_refused_in_one_line() {
+    let file = model("3-rpr.toml");
+    for (arguments, part) in [
+        (&["inverse", &file, "--pose=1,nan,0"][..], "NaN must be finite"),
+        (&["inverse", &file, "--pose=1,2"], "pose: 2 given, must be 3"),
+        (&["velocity", &file, "--pose=1,2,0", "--mode=++"], "mode \"++\": must be 3 signs"),
+        (&["velocity", &file, "--pose=1,2,0", "--mode=+x+"], "mode \"+x+\": must be 3 signs"),
+        (&["velocity", &file, "--pose=1,2,0", "--rates=1,2"], "rates: 2 given, must be 3"),
+        (&["velocity", &file, "--pose=1,2,0", "--length=-1"], "characteristic length: -1 must be > 0"),
+        (&["singularities", &file, "--phi=inf"], "inf must be finite"),
+    ] {
+        let message = refused(arguments, 1);
+        assert!(message.contains(part) && message.lines().count() == 1, "{message}");
+    }
+    refused(&["velocity", &file], 2);
+    refused(&["singularities", &file, "--phi=0", "--map", "beauty"], 2);
+}

@@ -1,0 +1,181 @@
+//! Planted singular poses get the right name; loci hold every singular pose.
+
+use assur::nalgebra::Vector2;
+use assur::{Leg, Manipulator, Pose, Reading, SingularityKind, Velocity};
+
+fn kind(robot: &Manipulator, pose: &Pose, signs: &str) -> SingularityKind {
+    robot.singularity(pose, signs, None).unwrap().kind
+}
+
+fn all_numbers(robot: &Manipulator, pose: &Pose, signs: &str) {
+    let found = robot.singularity(pose, signs, None).unwrap();
+    let velocity: Velocity = robot.velocity(pose, signs).unwrap();
+    let numbers = velocity.pose_matrix.iter().chain(velocity.input_matrix.iter()).copied();
+    let others = [found.sigma_min, found.sigma_min_input, found.dexterity, velocity.stiffness(1.0)];
+    let error = velocity.position_error(Vector2::zeros());
+    assert!(numbers.chain(others).chain([error]).all(|n| !n.is_nan()), "{found:?}");
+}
+
+/// Strut whose line passes from `base` through a platform point at `tip`, both in base axes, in the pose (0, 0, 0).
+fn strut(base: [f64; 2], tip: [f64; 2]) -> Leg {
+    Leg::rpr(base, tip)
+}
+
+#[test]
+fn each_type_is_named_where_it_is_planted() {
+    let home = Pose::new(0.0, 0.0, 0.0);
+    let concurrent =
+        vec![strut([0.0, -5.0], [0.0, -1.0]), strut([5.0, 0.0], [1.0, 0.0]), strut([-3.0, 3.0], [-1.0, 1.0])];
+    let robot = Manipulator::new("", concurrent.clone()).unwrap();
+    let found = robot.singularity(&home, "+++", None).unwrap();
+    assert_eq!((found.kind, found.legs.len()), (SingularityKind::Type2, 0));
+    let Some(Reading::Meet { point }) = found.reading else { panic!("{found:?}") };
+    assert!(point.norm() < 1e-12, "{point}");
+    assert_eq!(found.dexterity, 0.0);
+
+    let parallel =
+        vec![strut([0.0, -5.0], [0.0, 0.0]), strut([2.0, -5.0], [2.0, 1.0]), strut([-1.0, 9.0], [-1.0, 1.0])];
+    let found = Manipulator::new("", parallel).unwrap().singularity(&home, "+-+", None).unwrap();
+    let Some(Reading::Parallel { direction }) = found.reading else { panic!("{found:?}") };
+    assert!(found.kind == SingularityKind::Type2 && direction.x.abs() < 1e-12);
+    let free = found.free_motion.unwrap();
+    assert!(free.x.abs() > 0.99 && free.z.abs() < 1e-12);
+
+    // A stretched leg beside two struts that do not meet its line in one point, and then do.
+    let stretched = Leg::rrr([0.0, -3.0], 1.5, 1.0, [0.0, -0.5]);
+    let others = [strut([5.0, 1.0], [1.0, 1.0]), strut([-3.0, 3.0], [-1.0, 1.0])];
+    let robot = Manipulator::new("", vec![stretched.clone(), others[0].clone(), others[1].clone()]).unwrap();
+    let found = robot.singularity(&home, "+++", None).unwrap();
+    assert_eq!((found.kind, &found.legs[..]), (SingularityKind::Type1, &[1][..]));
+    let robot = Manipulator::new("", vec![stretched, concurrent[1].clone(), concurrent[2].clone()]).unwrap();
+    let found = robot.singularity(&home, "+++", None).unwrap();
+    assert_eq!((found.kind, &found.legs[..]), (SingularityKind::Type3, &[1][..]));
+    all_numbers(&robot, &home, "+++");
+
+    // Links square to their sliders.
+    let square = Leg::prr([-4.0, 0.0], 0.0, 2.0, [0.0, 2.0]);
+    let robot = Manipulator::new("", vec![others[0].clone(), square, others[1].clone()]).unwrap();
+    let found = robot.singularity(&home, "+++", None).unwrap();
+    assert_eq!((found.kind, &found.legs[..]), (SingularityKind::Type1, &[2][..]));
+    // A strut without length: its joints turn with the platform at rest.
+    let robot =
+        Manipulator::new("", vec![strut([1.0, 2.0], [1.0, 2.0]), others[0].clone(), others[1].clone()]).unwrap();
+    let found = robot.singularity(&home, "+++", None).unwrap();
+    assert_eq!((found.kind, &found.legs[..], &found.idle_legs[..]), (SingularityKind::Type1, &[1][..], &[1][..]));
+    all_numbers(&robot, &home, "+++");
+
+    // Congruent triangles on equal struts: a parallelogram that moves.
+    let corners = [[0.0, 0.0], [4.0, 0.0], [1.0, 3.0]];
+    let robot = Manipulator::new("", corners.map(|a| Leg::rpr(a, a)).to_vec()).unwrap();
+    assert_eq!(kind(&robot, &Pose::new(3.0, 4.0, 0.0), "+++"), SingularityKind::SelfMotion);
+    assert_eq!(kind(&robot, &Pose::new(3.0, 4.0, 0.3), "+++"), SingularityKind::Regular);
+}
+
+#[test]
+fn around_planted_poses_nothing_is_nan_and_the_type_fades() {
+    let robot = Manipulator::new(
+        "",
+        vec![strut([0.0, -5.0], [0.0, -1.0]), strut([5.0, 0.0], [1.0, 0.0]), strut([-3.0, 3.0], [-1.0, 1.0])],
+    )
+    .unwrap();
+    for exponent in 0..18 {
+        let step = 10f64.powi(-exponent);
+        for pose in [Pose::new(step, 0.3 * step, 0.0), Pose::new(0.0, 0.0, step), Pose::new(-step, step, -step)] {
+            all_numbers(&robot, &pose, "+++");
+        }
+    }
+    assert_eq!(kind(&robot, &Pose::new(0.01, 0.02, 0.03), "+++"), SingularityKind::Regular);
+    assert_eq!(kind(&robot, &Pose::new(1e-9, 0.0, 0.0), "+++"), SingularityKind::Type2);
+}
+
+/// Every leg type: between two poses with opposite det A lies a pose of type 2, and the exact curve passes through it.
+#[test]
+fn crossings_of_every_family_are_of_type_2_and_on_the_exact_curve() {
+    let families = [
+        "3-R_P_R",
+        "3-_R_RR",
+        "3-R_R_R",
+        "3-_P_RR",
+        "3-P_R_R",
+        "3-PR_R_",
+        "3-_R_RP",
+        "3-R_R_P",
+        "3-RR_P_",
+        "3-_R_PR",
+        "3-RP_R_",
+        "3-RR_R_",
+        "3-_P_PR",
+        "3-P_P_R",
+        "3-_P_RP",
+        "3-PR_P_",
+        "3-R_P_P",
+        "3-RP_P_",
+        "R_P_R,_P_RR,RP_P_",
+        "_P_RR,R_P_R,P_R_P",
+    ];
+    let mut located = 0;
+    for family in families {
+        let (mut robot, _) = Manipulator::of_family(family).unwrap();
+        // Offsets off the axes, so that nothing is special.
+        for (k, leg) in robot.legs.iter_mut().enumerate() {
+            leg.links[0].at.y += 0.25 + 0.125 * k as f64;
+            leg.links[1].at.y -= 0.375;
+        }
+        let phi = 0.375;
+        let heavy = family == "3-RR_R_";
+        let locus = if heavy { None } else { Some(robot.singularity_locus(phi).unwrap()) };
+        let window = robot.plane_window(phi);
+        for signs in robot.mode_names() {
+            let pieces = robot.trace_singularities(phi, &signs, &window).unwrap();
+            for piece in pieces.iter().step_by(40).take(4) {
+                let (centre, reach) = ((piece[0] + piece[1]) / 2.0, (piece[1] - piece[0]) / 2.0);
+                let side = Vector2::new(-reach.y, reach.x).normalize() * (window.high - window.low).norm() * 1e-4;
+                let det = |p: Vector2<f64>| {
+                    let velocity = robot.velocity(&Pose::new(p.x, p.y, phi), &signs).ok()?;
+                    Some(velocity.pose_matrix.determinant())
+                };
+                let (mut low, mut high) = (centre - side, centre + side);
+                let (Some(a), Some(b)) = (det(low), det(high)) else { continue };
+                if a * b >= 0.0 {
+                    continue;
+                }
+                for _ in 0..60 {
+                    let middle = (low + high) / 2.0;
+                    match det(middle) {
+                        Some(v) if v * a > 0.0 => low = middle,
+                        Some(_) => high = middle,
+                        None => break,
+                    }
+                }
+                if robot.velocity(&Pose::new(low.x, low.y, phi), &signs).unwrap().singularity(1.0).sigma_min_input
+                    < 1e-3
+                {
+                    continue;
+                }
+                let found = robot.singularity(&Pose::new(low.x, low.y, phi), &signs, None).unwrap();
+                assert!(
+                    matches!(found.kind, SingularityKind::Type2 | SingularityKind::SelfMotion),
+                    "{family} {signs}: {found:?}"
+                );
+                located += 1;
+                if let Some(locus) = &locus {
+                    // Values are known up to a factor far outside the range of f64: only their quotient is one.
+                    let value = |p: Vector2<f64>| locus.exact_value(p.x, p.y).unwrap();
+                    let part = |q: Vector2<f64>| (value(low) / value(q)).to_f64().value().abs();
+                    let quotient = part(low + side).min(part(low - side));
+                    assert!(quotient < 1e-5, "{family} {signs}: {quotient:e}");
+                }
+            }
+        }
+    }
+    assert!(located > 100, "{located}");
+}
+
+#[test]
+fn degrees_of_the_exact_curves() {
+    for (family, degree) in [("3-R_P_R", 2), ("3-R_R_R", 2), ("3-_P_RR", 20)] {
+        let (robot, _) = Manipulator::of_family(family).unwrap();
+        let locus = robot.singularity_locus(0.375).unwrap();
+        assert_eq!(locus.degree(), degree, "{family}");
+    }
+}
