@@ -5,7 +5,7 @@
 //! roots of the one that lie near roots of the other where it is more, so that solutions sharing a root are all found. Newton's
 //! method on the *original* equations then refines each, and what does not satisfy them is rejected by name.
 //!
-//! What it cannot do: tell two solutions apart that agree to about 1e-6 in every variable, unless their roots differ; and see a real
+//! What it cannot do: tell two solutions apart that agree to about 1e-6 in every variable (singular ones: 1e-4), unless their roots differ; and see a real
 //! solution in a complex pair closer to the real axis than the limits below.
 
 use nalgebra::{DMatrix, DVector};
@@ -63,17 +63,21 @@ const CLUSTERED: f64 = 1e-5;
 /// Newton has settled when its last relative step is below this at a simple root: the next one, squared, is below rounding.
 const SETTLED: f64 = 1e-8;
 /// The same at a multiple root, where steps only halve and rounding hides the rest (heuristic).
-const SETTLED_MULTIPLE: f64 = 1e-4;
+const SETTLED_MULTIPLE: f64 = 1e-5;
 /// A relative step below half a unit in the last place changes nothing any more.
 const NO_STEP: f64 = f64::EPSILON / 2.0;
 /// Singular values of the Jacobian below this part of the largest are rounding: no step is taken in their directions.
 const SILENT: f64 = 1e-14;
-/// Solutions above one root closer than this, relative, are one (heuristic).
+/// Simple solutions above one root closer than this, relative, are one (heuristic).
 const MERGED: f64 = 1e-6;
+/// Likewise where one is singular: Newton stops about 1e-8 from a double solution, 1e-5 from a triple one (heuristic).
+const MERGED_SINGULAR: f64 = 1e-4;
 /// A Jacobian with a smaller ratio of singular values belongs to a multiple solution, where Newton gives half the digits (heuristic).
-const SINGULAR: f64 = 1e-6;
+const SINGULAR: f64 = 1e-5;
 /// Imaginary parts below this are rounding at a simple solution, and below its square root at a multiple one (heuristic).
 const REAL: f64 = 1e-10;
+/// No more branches than this are followed above one root (heuristic; three quadrics have 24 at most).
+const BRANCHES: usize = 4096;
 /// Variables smaller than this part of their usual size (the upper quartile over all candidates: neither zeros nor a candidate that
 /// ran away decides) count as that large in residuals: where every term vanishes, rounding would have nothing to be compared with
 /// (heuristic).
@@ -125,7 +129,7 @@ pub fn lift<C: ToComplex>(
             let lifted: Vec<(Vec<Vec<Complex64>>, bool)> = (clusters.iter())
                 .map(|cluster| {
                     let (candidates, free): (Vec<_>, Vec<_>) =
-                        cluster.roots.iter().map(|&root| fibres.above(root)).unzip();
+                        cluster.roots.iter().map(|&root| fibres.above(root, Branches::Shared)).unzip();
                     (candidates.concat(), free.contains(&true))
                 })
                 .collect();
@@ -135,7 +139,11 @@ pub fn lift<C: ToComplex>(
                 sizes.sort_by(f64::total_cmp);
                 sizes.get(sizes.len() * 3 / 4).copied().unwrap_or(0.0)
             };
-            let floors: Vec<f64> = (0..system.variables().len()).map(|v| SMALLEST * usual(v)).collect();
+            let sizes: Vec<f64> = (0..system.variables().len()).map(usual).collect();
+            // A variable that vanishes everywhere is measured by the others; where all vanish nothing has a size but one.
+            let others = Some(sizes.iter().copied().fold(0.0, f64::max)).filter(|&size| size > 0.0).unwrap_or(1.0);
+            let floors: Vec<f64> =
+                sizes.iter().map(|&size| SMALLEST * if size > 0.0 { size } else { others }).collect();
             for (k, (candidates, free)) in lifted.into_iter().enumerate() {
                 let Cluster { ref roots, multiplicity } = clusters[k];
                 let root = roots[0];
@@ -143,15 +151,29 @@ pub fn lift<C: ToComplex>(
                     let here = clusters[k].distance(z);
                     clusters.iter().all(|other| other.distance(z) >= here)
                 };
-                let refined = candidates.into_iter().filter_map(|values| fibres.refine(values, &floors, multiplicity));
                 let mut found: Vec<Refined> = Vec::new();
-                for solution in refined.filter(|s| nearest_is_k(s.values[fibres.left])) {
-                    match found.iter_mut().find(|known| known.equals(&solution, &floors)) {
-                        Some(known) if known.residual > solution.residual => *known = solution,
-                        Some(_) => {}
-                        None => found.push(solution),
+                let mut settle = |candidates: Vec<Vec<Complex64>>| {
+                    for values in candidates {
+                        let Some(solution) = fibres.refine(values, &floors, multiplicity) else { continue };
+                        match found.iter_mut().find(|known| known.equals(&solution, &floors)) {
+                            Some(known) if known.residual > solution.residual => *known = solution,
+                            Some(_) => {}
+                            None if nearest_is_k(solution.values[fibres.left]) => found.push(solution),
+                            None => {}
+                        }
                     }
+                    found.len()
+                };
+                if settle(candidates) < multiplicity && !free {
+                    // A root known to few digits can hide which branches are shared: now all are tried, and the equations decide.
+                    settle(roots.iter().flat_map(|&root| fibres.above(root, Branches::All).0).collect());
                 }
+                // Isolated solutions are no more than the multiplicity. Singular ones beyond it are points of a curve.
+                let curve = found.len() > multiplicity && found.iter().any(|solution| solution.singular);
+                if curve {
+                    found.retain(|solution| !solution.singular);
+                }
+                let free = free || curve;
                 let Shares { counted, rest } = share_multiplicity(&found, multiplicity, free)?;
                 for (solution, multiplicity) in found.into_iter().zip(counted) {
                     let solution = fibres.finish(solution, multiplicity, &floors);
@@ -267,8 +289,11 @@ struct Refined {
 
 impl Refined {
     fn equals(&self, other: &Self, floors: &[f64]) -> bool {
+        let singular = self.singular || other.singular;
         let close = |((a, b), floor): ((&Complex64, &Complex64), &f64)| {
-            (a - b).norm() <= MERGED * a.norm().max(b.norm()).max(*floor)
+            let size = a.norm().max(b.norm());
+            let limit = if singular { MERGED_SINGULAR * size.max(floor / SMALLEST) } else { MERGED * size.max(*floor) };
+            (a - b).norm() <= limit
         };
         self.values.iter().zip(&other.values).zip(floors).all(close)
     }
@@ -316,7 +341,7 @@ impl Fibres {
     }
 
     /// Candidates for all variables above a root, and whether some variable stayed free.
-    fn above(&self, root: Complex64) -> (Vec<Vec<Complex64>>, bool) {
+    fn above(&self, root: Complex64, which: Branches) -> (Vec<Vec<Complex64>>, bool) {
         let mut partial = vec![Complex64::ZERO; self.variables];
         partial[self.left] = root;
         let mut branches = vec![partial];
@@ -329,7 +354,7 @@ impl Fibres {
             }
             let mut extended = Vec::new();
             for values in branches {
-                match self.common_roots(*variable, [f, g], &values, &known) {
+                match self.fibre_roots(*variable, [f, g], &values, &known, which) {
                     Some(roots) => extended.extend(roots.into_iter().map(|root| {
                         let mut values = values.clone();
                         values[*variable] = root;
@@ -338,6 +363,7 @@ impl Fibres {
                     None => free = true,
                 }
             }
+            extended.truncate(BRANCHES);
             branches = extended;
             known[*variable] = true;
         }
@@ -345,18 +371,23 @@ impl Fibres {
     }
 
     /// Values of one variable above known ones; `None` where no polynomial restrains it.
-    fn common_roots(
+    fn fibre_roots(
         &self,
         variable: usize,
         pair: [&NumericPoly; 2],
         values: &[Complex64],
         known: &[bool],
+        which: Branches,
     ) -> Option<Vec<Complex64>> {
         let restrains = |p: &&NumericPoly| {
             p.contains(variable) && (0..self.variables).all(|v| v == variable || known[v] || !p.contains(v))
         };
         let fibre = |p: &NumericPoly| Fibre::new(p, variable, values);
         let mut fibres: Vec<Fibre> = pair.into_iter().filter(restrains).filter_map(fibre).collect();
+        if which == Branches::All && !fibres.is_empty() {
+            let roots = fibres.iter().filter_map(|f| companion_roots(&f.coefficients).ok());
+            return Some(roots.flat_map(|roots| roots.finite).collect());
+        }
         if let [f, g] = &fibres[..]
             && let Some(root) = f.shared_root(g)
         {
@@ -371,7 +402,8 @@ impl Fibres {
 
     /// Newton's method on the original equations; `None` where it does not settle on a solution.
     fn refine(&self, mut values: Vec<Complex64>, floors: &[f64], multiplicity: usize) -> Option<Refined> {
-        const STEPS: usize = 40;
+        /// Enough to halve a distance of one down to 1e-8 and to find the way there first (heuristic).
+        const STEPS: usize = 100;
         // Newton halves the distance to a double solution per step, and stops where rounding hides the rest.
         let settled = if multiplicity == 1 { SETTLED } else { SETTLED_MULTIPLE };
         let mut best: Option<(Vec<Complex64>, f64)> = None;
@@ -423,7 +455,8 @@ impl Fibres {
         Some(Refined { values, residual, singular: condition < SINGULAR })
     }
 
-    /// The least-squares Newton step, and the ratio of the extreme singular values of the Jacobian with rows and columns of size one.
+    /// The least-squares Newton step, and the ratio of the extreme singular values of the Jacobian, each equation divided by the size of
+    /// its terms and each variable by its usual size.
     fn newton_step(&self, values: &[Complex64], floors: &[f64]) -> Option<(Vec<Complex64>, f64)> {
         let (m, n) = (self.equations.len(), self.variables);
         let mut jacobian = DMatrix::<Complex64>::zeros(m, n);
@@ -435,10 +468,10 @@ impl Fibres {
                 jacobian[(i, v)] = equation.derivative(v, values) / size;
             }
         }
-        let scales: Vec<f64> =
-            (0..n).map(|v| jacobian.column(v).norm()).map(|s| if s > 0.0 { s } else { 1.0 }).collect();
+        // A column counts by what its variable usually amounts to. Columns of length one would hide that one has vanished.
+        let scales: Vec<f64> = (0..n).map(|v| values[v].norm().max(floors[v] / SMALLEST)).collect();
         for (v, scale) in scales.iter().enumerate() {
-            jacobian.column_mut(v).unscale_mut(*scale);
+            jacobian.column_mut(v).scale_mut(*scale);
         }
         if jacobian.iter().any(|x| !x.is_finite()) {
             return None;
@@ -448,7 +481,7 @@ impl Fibres {
         // Directions in which the equations say nothing in floats get no step.
         let step = svd.solve(&value, SILENT * largest).ok()?;
         let smallest = if m < n { 0.0 } else { svd.singular_values.min() };
-        let step = step.iter().zip(&scales).map(|(dx, scale)| dx / *scale).collect();
+        let step = step.iter().zip(&scales).map(|(dx, scale)| dx * *scale).collect();
         Some((step, if largest > 0.0 { smallest / largest } else { 0.0 }))
     }
 
@@ -481,6 +514,15 @@ impl Fibres {
 /// The values, those that are tiny raised in size.
 fn raised(values: &[Complex64], floors: &[f64]) -> Vec<Complex64> {
     values.iter().zip(floors).map(|(z, &floor)| z.norm().max(floor).into()).collect()
+}
+
+/// Which values of a variable are followed further.
+#[derive(Clone, Copy, PartialEq)]
+enum Branches {
+    /// Roots that the two polynomials share.
+    Shared,
+    /// Every root of either.
+    All,
 }
 
 /// A polynomial in one variable above known values of the others.
