@@ -5,7 +5,7 @@
 use assur::algebra::{Gaussian, Integer, Interval, Poly, Rational, Ring, ShortTrig, Trig, dyadic};
 use assur::linkage::{LegNumbers, Rows, consistency, triad_rows};
 use assur::nalgebra::Vector2;
-use assur::roots::{count_on_circle, isolate_real_roots};
+use assur::roots::{Harmonics, isolate_real_roots};
 use assur::{Dyad, ProofRoute, Triad};
 
 type P = Poly<Rational>;
@@ -125,7 +125,7 @@ fn bound() -> String {
     for _ in 0..400 {
         let numbers: [i64; 7] = std::array::from_fn(|_| (30.0 * random.next()) as i64);
         let point = |k: usize| Interval::point(numbers[k] as f64);
-        let counted = count_on_circle(&[0, 1, 2, 3].map(point), &[4, 5, 6].map(point));
+        let counted = Harmonics::from_powers(&[0, 1, 2, 3].map(point), &[4, 5, 6].map(point)).real_roots();
         let integer = |k: usize| Trig::constant(Integer::from(numbers[k]));
         let (c, s) = (Trig::cosine(), Trig::sine());
         let even = integer(0) + c.clone() * (integer(1) + c.clone() * (integer(2) + c.clone() * integer(3)));
@@ -135,7 +135,7 @@ fn bound() -> String {
         {
             let parts = t.half_angle_about(3, tau).square_free();
             let exact: usize = parts.iter().map(|(p, _)| isolate_real_roots(p).len()).sum();
-            assert_eq!(counted.directions().len(), exact);
+            assert_eq!(counted.count(), exact);
             decided += 1;
         }
     }

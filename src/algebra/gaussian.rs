@@ -14,7 +14,7 @@ use super::{Domain, Ring};
 /// let z = Gaussian::new(3, 4).map(|&x| f64::from(x));
 /// assert_eq!(z.clone() * z.conj(), Gaussian::new(25.0, 0.0));
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Gaussian<R> {
     /// Real part.
     pub re: R,
@@ -24,11 +24,13 @@ pub struct Gaussian<R> {
 
 impl<R> Gaussian<R> {
     /// `re + i·im`.
+    #[inline(always)]
     pub fn new(re: R, im: R) -> Self {
         Self { re, im }
     }
 
     /// The same number over another ring.
+    #[inline(always)]
     pub fn map<S>(&self, f: impl Fn(&R) -> S) -> Gaussian<S> {
         Gaussian { re: f(&self.re), im: f(&self.im) }
     }
@@ -36,36 +38,43 @@ impl<R> Gaussian<R> {
 
 impl<R: Ring> Gaussian<R> {
     /// The real number `re`.
+    #[inline(always)]
     pub fn real(re: R) -> Self {
         Self { re, im: R::zero() }
     }
 
     /// The conjugate `re - i·im`.
+    #[inline(always)]
     pub fn conj(&self) -> Self {
         Self { re: self.re.clone(), im: -self.im.clone() }
     }
 
     /// The number turned by a quarter: `i·self`.
+    #[inline(always)]
     pub fn turned(&self) -> Self {
         Self { re: -self.im.clone(), im: self.re.clone() }
     }
 
     /// `|self|²`, a number of `R`.
+    #[inline(always)]
     pub fn norm_sqr(&self) -> R {
         self.re.clone() * self.re.clone() + self.im.clone() * self.im.clone()
     }
 
     /// The dot product `re·re' + im·im'` of the two as plane vectors.
+    #[inline(always)]
     pub fn dot(&self, other: &Self) -> R {
         self.re.clone() * other.re.clone() + self.im.clone() * other.im.clone()
     }
 
     /// The cross product `re·im' - im·re'` of the two as plane vectors.
+    #[inline(always)]
     pub fn cross(&self, other: &Self) -> R {
         self.re.clone() * other.im.clone() - self.im.clone() * other.re.clone()
     }
 
     /// Every part multiplied by `factor`.
+    #[inline(always)]
     pub fn scaled(&self, factor: &R) -> Self {
         self.map(|x| x.clone() * factor.clone())
     }
@@ -73,6 +82,7 @@ impl<R: Ring> Gaussian<R> {
 
 impl<R: Ring> Add for Gaussian<R> {
     type Output = Self;
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
         Self { re: self.re + other.re, im: self.im + other.im }
     }
@@ -80,6 +90,7 @@ impl<R: Ring> Add for Gaussian<R> {
 
 impl<R: Ring> Sub for Gaussian<R> {
     type Output = Self;
+    #[inline(always)]
     fn sub(self, other: Self) -> Self {
         Self { re: self.re - other.re, im: self.im - other.im }
     }
@@ -87,6 +98,7 @@ impl<R: Ring> Sub for Gaussian<R> {
 
 impl<R: Ring> Mul for Gaussian<R> {
     type Output = Self;
+    #[inline(always)]
     fn mul(self, other: Self) -> Self {
         Self {
             re: self.re.clone() * other.re.clone() - self.im.clone() * other.im.clone(),
@@ -97,22 +109,26 @@ impl<R: Ring> Mul for Gaussian<R> {
 
 impl<R: Ring> Neg for Gaussian<R> {
     type Output = Self;
+    #[inline(always)]
     fn neg(self) -> Self {
         Self { re: -self.re, im: -self.im }
     }
 }
 
 impl<R: Ring> Ring for Gaussian<R> {
+    #[inline(always)]
     fn from_int(n: i64) -> Self {
         Self::real(R::from_int(n))
     }
 }
 
 impl<R: Domain> Domain for Gaussian<R> {
+    #[inline(always)]
     fn is_zero(&self) -> bool {
         self.re.is_zero() && self.im.is_zero()
     }
 
+    #[inline(always)]
     fn exact_div(&self, divisor: &Self) -> Option<Self> {
         if divisor.im.is_zero() {
             return Some(Self { re: self.re.exact_div(&divisor.re)?, im: self.im.exact_div(&divisor.re)? });

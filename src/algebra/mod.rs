@@ -4,10 +4,12 @@
 //! Floats are rings and not domains, so an elimination over floats does not compile. On these two
 //! stand polynomials in one variable ([`UPoly`]), in many ([`Poly`]), and on the unit circle ([`Trig`]).
 
+mod bounded;
 mod bracket;
 mod gaussian;
 mod gcd;
 mod interval;
+mod lanes;
 mod monomial;
 mod poly;
 mod rational;
@@ -16,9 +18,11 @@ mod short_trig;
 mod trig;
 mod upoly;
 
+pub use bounded::Bounded;
 pub use bracket::Bracket;
 pub use gaussian::Gaussian;
 pub use interval::Interval;
+pub use lanes::Lanes;
 pub use monomial::Monomial;
 pub use poly::Poly;
 pub use rational::{Integer, Rational, dyadic, integer_to_f64_scaled, nearest_f64, ratio_to_f64};

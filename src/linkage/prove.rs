@@ -1,6 +1,6 @@
 //! How many assembly modes, as a theorem, and a box around each.
 //!
-//! Two routes. The *filter* expands `T` in intervals, counts its real roots by the signs of Bernstein coefficients ([`crate::roots::count_on_circle`])
+//! Two routes. The *filter* expands `T` in intervals, counts its real roots by the signs of Bernstein coefficients ([`crate::roots::Harmonics`])
 //! and proves a box for each on the loop equations: every root of `T` is simple then, above a simple root lies exactly one pose (step 5 of the
 //! derivation `filter_bound`), and boxes that do not meet hold different poses. Where a bound is not met, the *exact* route counts over the
 //! integers and rounds boxes outward from isolated roots. Either way the theorem is about the triad whose numbers are exactly the `f64`s given.
@@ -19,7 +19,7 @@ use super::triad::{LegNumbers, Rows, leg_row, rows_consistency, triad_rows};
 use super::vanishing::motions;
 use crate::algebra::{Integer, Interval, Rational, Ring, Trig, dyadic};
 use crate::certify::Verdict;
-use crate::roots::{MAX_BITS, count_on_circle, isolate_real_roots};
+use crate::roots::{Harmonics, MAX_BITS, isolate_real_roots};
 
 /// Which arithmetic a proof took.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,10 +84,11 @@ impl Triad {
     pub fn prove_filtered(&self) -> Option<ProvedModes> {
         let triad = IntervalTriad::of(self)?;
         let (even, odd) = triad.consistency();
-        let roots = count_on_circle(&even, &odd)?;
+        let roots = Harmonics::from_powers(&even, &odd).real_roots()?;
         let equations = triad.equations();
-        let mut found = Vec::with_capacity(roots.directions().len());
-        for &direction in roots.directions() {
+        let mut found = Vec::with_capacity(roots.count());
+        for i in 0..roots.count() {
+            let direction = [roots.cosines()[i], roots.sines()[i]];
             found.push((triad.pose(&equations.enclose_near(direction)?)?, 1));
         }
         let proved = ProvedModes::new(found, ProofRoute::Filter, Status::Complete);

@@ -27,7 +27,7 @@ use super::group::{Dyad, Triad, triad_degree};
 use crate::algebra::{Gaussian, Ring};
 
 /// The numbers of one leg over a ring, seen from the reference leg.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LegNumbers<R> {
     /// RR: pivots and their distance.
     Circle {
@@ -71,6 +71,7 @@ impl<R: Ring> LegNumbers<R> {
     }
 
     /// The same leg over another ring.
+    #[inline(always)]
     pub fn map<S: Ring>(&self, f: impl Fn(&R) -> S) -> LegNumbers<S> {
         match self {
             Self::Circle { alpha, beta, length } => {
@@ -90,7 +91,7 @@ impl<R: Ring> LegNumbers<R> {
 }
 
 /// A condition `g·u + e = 0` on the place `u` of the reference leg's platform point.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row<R> {
     /// Normal of the line on which `u` lies.
     pub g: Gaussian<R>,
@@ -100,11 +101,13 @@ pub struct Row<R> {
 
 impl<R: Ring> Row<R> {
     /// `g x g'`: zero where the two lines are parallel.
+    #[inline(always)]
     pub fn cross(&self, other: &Self) -> R {
         self.g.cross(&other.g)
     }
 
     /// `e g' - e' g`: with parallel lines, zero where they are the same.
+    #[inline(always)]
     pub fn mismatch(&self, other: &Self) -> Gaussian<R> {
         other.g.scaled(&self.e) - self.g.scaled(&other.e)
     }
@@ -113,6 +116,7 @@ impl<R: Ring> Row<R> {
 /// The linear row of a leg at the orientation with cosine `c` and sine `s`.
 ///
 /// `reference_length` is that of the reference RR leg; it only enters the rows of RR legs.
+#[inline(always)]
 pub fn leg_row<R: Ring>(leg: &LegNumbers<R>, reference_length: &R, c: &R, s: &R) -> Row<R> {
     let rotation = Gaussian::new(c.clone(), s.clone());
     let two = R::from_int(2);
@@ -153,6 +157,7 @@ pub enum Rows<R> {
 }
 
 /// The rows of three legs, reference leg first, at the orientation with cosine `c` and sine `s`.
+#[inline(always)]
 pub fn triad_rows<R: Ring>(legs: &[LegNumbers<R>; 3], c: &R, s: &R) -> Rows<R> {
     match &legs[0] {
         LegNumbers::Circle { length, .. } => {
@@ -177,11 +182,13 @@ pub fn triad_rows<R: Ring>(legs: &[LegNumbers<R>; 3], c: &R, s: &R) -> Rows<R> {
 /// let legs = [leg(point(0.0, 0.0)), leg(point(2.0, 0.0)), leg(point(1.0, 1.5))];
 /// assert_eq!(consistency(&legs, &1.0, &0.0), 0.0);
 /// ```
+#[inline(always)]
 pub fn consistency<R: Ring>(legs: &[LegNumbers<R>; 3], c: &R, s: &R) -> R {
     rows_consistency(&triad_rows(legs, c, s))
 }
 
 /// `T` from the rows; see [`consistency`].
+#[inline(always)]
 pub(super) fn rows_consistency<R: Ring>(rows: &Rows<R>) -> R {
     match rows {
         Rows::Circle { radius, rows: [second, third] } => {

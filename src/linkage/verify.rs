@@ -88,20 +88,27 @@ pub(super) fn pinned_determinant(legs: &[LegNumbers<f64>], at: Placement) -> f64
 }
 
 /// The largest length among the legs: distances of base points, of platform points, leg lengths and offsets.
+#[inline(always)]
 pub(super) fn size(legs: &[LegNumbers<f64>]) -> f64 {
-    let points = legs.iter().map(|leg| match leg {
+    let points = |leg: &LegNumbers<f64>| match *leg {
         LegNumbers::Circle { alpha, beta, .. }
         | LegNumbers::Line { alpha, beta, .. }
-        | LegNumbers::PlatformLine { alpha, beta, .. } => (complex(alpha), complex(beta)),
-    });
-    let points: Vec<(Complex64, Complex64)> = points.collect();
-    let apart = points.iter().flat_map(|p| points.iter().map(|q| (p.0 - q.0).norm().max((p.1 - q.1).norm())));
-    let own = legs.iter().map(|leg| match leg {
-        LegNumbers::Circle { length, .. } => *length,
-        LegNumbers::Line { .. } => 0.0,
-        LegNumbers::PlatformLine { delta, .. } => delta.abs(),
-    });
-    apart.chain(own).fold(0.0, f64::max)
+        | LegNumbers::PlatformLine { alpha, beta, .. } => (alpha, beta),
+    };
+    let (mut apart, mut own) = (0.0f64, 0.0f64);
+    for (i, leg) in legs.iter().enumerate() {
+        let (alpha, beta) = points(leg);
+        for other in &legs[..i] {
+            let (alpha2, beta2) = points(other);
+            apart = apart.max((alpha - alpha2).norm_sqr()).max((beta - beta2).norm_sqr());
+        }
+        own = own.max(match *leg {
+            LegNumbers::Circle { length, .. } => length,
+            LegNumbers::Line { .. } => 0.0,
+            LegNumbers::PlatformLine { delta, .. } => delta.abs(),
+        });
+    }
+    own.max(apart.sqrt())
 }
 
 /// How badly a complex solution `(theta, U, V)` misses the closure equations, relative to the size of their terms.

@@ -9,7 +9,7 @@ mod isolate;
 mod locate;
 mod polish;
 
-pub use circle::{CountedRoots, count_on_circle};
+pub use circle::{CountedRoots, Harmonics};
 pub use companion::{PolynomialRoots, RootsError, companion_roots, companion_roots_real};
 pub use isolate::{Isolation, isolate_real_roots};
 pub use locate::{CircleRoot, FIRST_BITS, MAX_BITS, NotLocated, locate_on_circle};

@@ -1,0 +1,477 @@
+//! All real assembly modes, fast.
+//!
+//! `T(phi)` is evaluated at eight orientations side by side, with one bound on all rounding errors; its real roots are counted with a proof and found on
+//! the circle ([`Harmonics::real_roots`]); above each the pose is taken from two rows, refined by Newton's method on the loop equations, and measured on the
+//! geometry. Nothing is allocated. Wherever a bound does not decide, or a pose would have fewer than nine sure digits, the reference
+//! route ([`Triad::assemble`]) answers instead.
+//!
+//! What it does not give: non-real solutions, boxes, the account; and triads with a PP leg always take the reference route.
+
+use std::sync::LazyLock;
+
+use super::assemblies::{AssemblyMode, Status};
+use super::group::{Dyad, Offset, Pose, Triad};
+use super::triad::{LegNumbers, Row, Rows, consistency, triad_rows};
+use super::verify::size;
+use crate::algebra::{Bounded, Gaussian, Lanes};
+use crate::roots::{CountedRoots, Harmonics};
+
+/// As many isolated real modes as any triad has.
+pub const MOST_MODES: usize = 6;
+
+/// Roots are worked on in fours.
+const WIDTH: usize = 4;
+
+/// Which way an answer was found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ModesRoute {
+    /// In floating point; its error bound proved the count.
+    Fast,
+    /// The reference route, over integers, since the bound did not decide.
+    Reference,
+}
+
+/// A real assembly mode.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RealMode {
+    /// The pose of the platform.
+    pub pose: Pose,
+    /// How many modes meet here.
+    pub multiplicity: usize,
+    /// Largest closure error of the assembled group over its largest length, measured on the geometry.
+    pub residual: f64,
+    /// As [`AssemblyMode::det_a`].
+    pub det_a: f64,
+}
+
+const NO_MODE: RealMode =
+    RealMode { pose: Pose { x: 0.0, y: 0.0, phi: 0.0 }, multiplicity: 0, residual: 0.0, det_a: 0.0 };
+
+/// All real assembly modes of a triad.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RealModes {
+    modes: [RealMode; MOST_MODES],
+    count: usize,
+    /// `Complete`: these are all. `SelfMotion`: there is also a curve of poses. `Undecided`: the list may be short.
+    pub status: Status,
+    /// Which way they were found.
+    pub route: ModesRoute,
+}
+
+impl RealModes {
+    /// The modes, sorted by `phi`, `x`, `y`.
+    pub fn modes(&self) -> &[RealMode] {
+        &self.modes[..self.count]
+    }
+}
+
+impl Triad {
+    /// Every real assembly mode, fast: the same modes as [`Triad::assemble`] lists.
+    ///
+    /// **Shape**: at most six modes, sorted by `phi`, then `x`, then `y`. **Units and frame**: as [`Triad::assemble`]. **Accuracy**: poses good to `1e-15` times the group's size over
+    /// [`RealMode::det_a`]'s share of its largest value, and never fewer than nine digits. **Proof**: the number of modes is exact, by a bound on all rounding errors or by integers.
+    /// **Cost**: below a microsecond, a millisecond where the bound does not decide (about one random triad in a hundred thousand; `benches/real_modes.rs`).
+    ///
+    /// ```
+    /// use assur::{Dyad, ModesRoute, Triad};
+    /// let leg = |a: [f64; 2], b: [f64; 2], length| Dyad::RR { a: a.into(), b: b.into(), length };
+    /// let triad = Triad::new([
+    ///     leg([0.0, 0.0], [0.0, 0.0], 14.98),
+    ///     leg([15.91, 0.0], [17.045, 0.0], 15.38),
+    ///     leg([0.0, 10.0], [13.2389, 16.0929], 12.0),
+    /// ])?;
+    /// let found = triad.real_modes();
+    /// assert_eq!((found.modes().len(), found.route), (6, ModesRoute::Fast));
+    /// assert!(found.modes().iter().all(|mode| mode.residual < 1e-15));
+    /// # Ok::<(), assur::TriadError>(())
+    /// ```
+    pub fn real_modes(&self) -> RealModes {
+        self.real_modes_fast().unwrap_or_else(|| self.real_modes_reference())
+    }
+
+    /// The fast way alone; `None` where its bounds do not decide.
+    pub fn real_modes_fast(&self) -> Option<RealModes> {
+        ARCH.dispatch(|| fast(self))
+    }
+
+    /// The reference way, in the same form.
+    #[cold]
+    pub fn real_modes_reference(&self) -> RealModes {
+        let answer = self.assemble();
+        let mut out =
+            RealModes { modes: [NO_MODE; MOST_MODES], count: 0, status: answer.status, route: ModesRoute::Reference };
+        for AssemblyMode { pose, multiplicity, residual, det_a, .. } in answer.modes {
+            out.modes[out.count] = RealMode { pose, multiplicity, residual, det_a };
+            out.count += 1;
+        }
+        out
+    }
+}
+
+/// The processor's SIMD registers.
+static ARCH: LazyLock<pulp::Arch> = LazyLock::new(pulp::Arch::new);
+
+/// Newton steps on the loop equations, and the step (radians, and lengths over the group's) whose square is below rounding.
+const STEPS: usize = 3;
+const LAST_STEP: f64 = 1e-8;
+/// Largest closure error of a pose that needs no second look, over the group's size.
+const CLOSURE: f64 = 1e-13;
+/// Least determinant of the rows scaled to norm 1: below, a pose may have fewer than nine digits.
+const REGULAR: f64 = 1e-6;
+/// How far rounding may carry a root out of its part of the circle, in radians.
+const ROOM_SLACK: f64 = 1e-9;
+
+/// Lengths are taken in units of a power of two; beyond these exponents underflow would not be covered by the bound.
+const EXPONENTS: std::ops::RangeInclusive<i32> = -300..=300;
+
+#[inline(always)]
+fn fast(triad: &Triad) -> Option<RealModes> {
+    let local = Local::of(triad)?;
+    let bound = consistency(&local.bounds, &Bounded::rounded(1.0), &Bounded::rounded(1.0));
+    let legs = local.legs.each_ref().map(|leg| leg.map(|&x| Lanes::<8>::all(x)));
+    let values = consistency(&legs, &Lanes(COSINES), &Lanes(SINES));
+    let roots = Harmonics::from_samples(&values.0, local.order, bound.error()).real_roots()?;
+    let mut out = RealModes {
+        modes: [NO_MODE; MOST_MODES],
+        count: roots.count(),
+        status: Status::Complete,
+        route: ModesRoute::Fast,
+    };
+    for first in (0..roots.count()).step_by(WIDTH) {
+        local.poses(&roots, first, &mut out)?;
+    }
+    out.sort();
+    Some(out)
+}
+
+const HALF: f64 = std::f64::consts::FRAC_1_SQRT_2;
+/// Cosines and sines of the multiples of a quarter of pi, each rounded once.
+const COSINES: [f64; 8] = [1.0, HALF, 0.0, -HALF, -1.0, -HALF, 0.0, HALF];
+const SINES: [f64; 8] = [0.0, HALF, 1.0, HALF, 0.0, -HALF, -1.0, -HALF];
+
+/// A triad seen from its reference leg, lengths in units of a power of two.
+struct Local {
+    /// The reference leg first; `alpha` and `beta` are rounded once.
+    legs: [LegNumbers<f64>; 3],
+    /// The same with normals of length 1.
+    unit_normals: [LegNumbers<f64>; 3],
+    /// Moduli of the same, with their roundings.
+    bounds: [LegNumbers<Bounded>; 3],
+    order: usize,
+    /// 1, or -1 where the legs are in an odd permutation of the order given.
+    parity: f64,
+    /// The unit of length, and the group's size in it.
+    unit: f64,
+    size: f64,
+    /// Base and platform point of the reference leg.
+    a0: [f64; 2],
+    b0: [f64; 2],
+}
+
+impl Local {
+    #[inline(always)]
+    fn of(triad: &Triad) -> Option<Self> {
+        let legs = triad.legs();
+        let length = |i: usize| match legs[i] {
+            Dyad::RR { length, .. } => length,
+            _ => f64::INFINITY,
+        };
+        // The shortest RR leg, or else the first leg.
+        let mut reference = 0;
+        for i in [1, 2] {
+            if length(i) < length(reference) {
+                reference = i;
+            }
+        }
+        let sorted = [[0, 1, 2], [1, 0, 2], [2, 0, 1]][reference];
+        let parity = if reference == 1 { -1.0 } else { 1.0 };
+        let (a0, b0) = points(&legs[reference])?;
+        let mut largest = 0.0f64;
+        for leg in legs {
+            let (a, b) = points(leg)?;
+            let own = match *leg {
+                Dyad::RR { length, .. } => length,
+                Dyad::RP { offset: Offset::Distance(d), .. } => d.abs(),
+                _ => 0.0,
+            };
+            for x in [own, a[0] - a0[0], a[1] - a0[1], b[0] - b0[0], b[1] - b0[1]] {
+                largest = largest.max(x.abs());
+            }
+        }
+        let unit = power_of_two(largest)?;
+        let inverse = 1.0 / unit;
+        let mut numbers = [LegNumbers::Circle { alpha: ORIGIN, beta: ORIGIN, length: 0.0 }; 3];
+        let mut bounds = numbers.map(|leg| leg.map(|_| Bounded::given(0.0)));
+        for k in 0..3 {
+            let leg = &legs[sorted[k]];
+            numbers[k] = local_leg(leg, a0, b0, inverse)?;
+            // An offset given as a distance is a product of a root; all else is rounded once at most.
+            let roundings = if matches!(leg, Dyad::RP { offset: Offset::Distance(_), .. }) { 4 } else { 1 };
+            bounds[k] = numbers[k].map(|&x| Bounded::rounded_times(x, roundings));
+        }
+        let unit_normals = numbers.map(with_unit_normal);
+        let size = size(&unit_normals);
+        Some(Self { legs: numbers, unit_normals, bounds, order: triad.order()?, parity, unit, size, a0, b0 })
+    }
+
+    /// The poses above four roots; `None` where one needs a second look.
+    #[inline(always)]
+    fn poses(&self, roots: &CountedRoots, first: usize, out: &mut RealModes) -> Option<()> {
+        let take = |from: &[f64; 8]| -> L { Lanes(std::array::from_fn(|i| from[first + i])) };
+        let legs = self.legs.each_ref().map(|leg| leg.map(|&x| L::all(x)));
+        let (mut c, mut s, start) = (take(roots.cosines()), take(roots.sines()), take(roots.angles()));
+        let mut u = above(&legs, c, s);
+        let mut turned = L::all(0.0);
+        let used = (roots.count() - first).min(WIDTH);
+        let mut settled = false;
+        for _ in 0..STEPS {
+            let rows = legs.each_ref().map(|leg| closure_row(leg, u, c, s));
+            let (du, dphi) = newton(&rows);
+            u = u + du;
+            turned = turned + dphi;
+            let half = dphi * dphi * L::all(0.5);
+            // Of modulus 1 to the fourth power of the step.
+            let (dc, ds) = (L::all(1.0) - half, dphi);
+            (c, s) = (c * dc - s * ds, s * dc + c * ds);
+            let step = dphi.zip(du.re, |x, y| x.abs().max(y.abs())).zip(du.im, |x, y| x.max(y.abs()));
+            settled = step.0[..used].iter().all(|&x| x <= LAST_STEP);
+            if settled {
+                break;
+            }
+        }
+        if !settled {
+            return None;
+        }
+        let norm = (c * c + s * s).map(|x| 1.5 - 0.5 * x);
+        (c, s) = (c * norm, s * norm);
+        let unit_normals = self.unit_normals.each_ref().map(|leg| leg.map(|&x| L::all(x)));
+        let (residual, det, regular) = measure(&unit_normals, u, c, s);
+        let size = L::all(1.0 / self.size);
+        let (residual, det) = (residual * size, det * size);
+        for i in 0..used {
+            let room = roots.room()[first + i];
+            let sound = (residual.0[i] <= CLOSURE)
+                & (regular.0[i].abs() >= REGULAR)
+                & (turned.0[i] >= -room[0] - ROOM_SLACK)
+                & (turned.0[i] <= room[1] + ROOM_SLACK);
+            if !sound {
+                return None;
+            }
+            let phi = start.0[i] + turned.0[i];
+            let phi = if phi > std::f64::consts::PI {
+                phi - std::f64::consts::TAU
+            } else if phi <= -std::f64::consts::PI {
+                phi + std::f64::consts::TAU
+            } else {
+                phi
+            };
+            let [c, s] = [c.0[i], s.0[i]];
+            let x = self.a0[0] + u.re.0[i] * self.unit - (c * self.b0[0] - s * self.b0[1]);
+            let y = self.a0[1] + u.im.0[i] * self.unit - (s * self.b0[0] + c * self.b0[1]);
+            out.modes[first + i] = RealMode {
+                pose: Pose { x, y, phi },
+                multiplicity: 1,
+                residual: residual.0[i],
+                det_a: self.parity * det.0[i],
+            };
+        }
+        Some(())
+    }
+}
+
+const ORIGIN: Gaussian<f64> = Gaussian { re: 0.0, im: 0.0 };
+
+/// The power of two at or below `x`; `None` for zero and far out of the usual range.
+#[inline(always)]
+fn power_of_two(x: f64) -> Option<f64> {
+    let exponent = ((x.to_bits() >> 52) & 0x7ff) as i32 - 1023;
+    EXPONENTS.contains(&exponent).then(|| f64::from_bits(((exponent + 1023) as u64) << 52))
+}
+
+/// Base and platform point of a leg.
+#[inline(always)]
+fn points(leg: &Dyad) -> Option<([f64; 2], [f64; 2])> {
+    match leg {
+        Dyad::RR { a, b, .. } | Dyad::PR { a, b, .. } | Dyad::RP { a, b, .. } => Some(([a.x, a.y], [b.x, b.y])),
+        Dyad::PP { .. } => None,
+    }
+}
+
+#[inline(always)]
+fn local_leg(leg: &Dyad, a0: [f64; 2], b0: [f64; 2], inverse: f64) -> Option<LegNumbers<f64>> {
+    let (a, b) = points(leg)?;
+    let less = |p: [f64; 2], q: [f64; 2]| Gaussian::new((p[0] - q[0]) * inverse, (p[1] - q[1]) * inverse);
+    let (alpha, beta) = (less(a, a0), less(b, b0));
+    Some(match *leg {
+        Dyad::RR { length, .. } => LegNumbers::Circle { alpha, beta, length: length * inverse },
+        Dyad::PR { u, .. } => {
+            let own = 1.0 / power_of_two(u.x.abs().max(u.y.abs()))?;
+            LegNumbers::Line { alpha, beta, normal: Gaussian::new(-u.y * own, u.x * own) }
+        }
+        Dyad::RP { v, offset, .. } => {
+            let own = 1.0 / power_of_two(v.x.abs().max(v.y.abs()))?;
+            let delta = match offset {
+                Offset::TimesDirection(delta) => delta,
+                Offset::Distance(d) => d * v.x.hypot(v.y),
+            };
+            LegNumbers::PlatformLine {
+                alpha,
+                beta,
+                normal: Gaussian::new(-v.y * own, v.x * own),
+                delta: delta * own * inverse,
+            }
+        }
+        Dyad::PP { .. } => return None,
+    })
+}
+
+/// The same leg with a normal of length 1.
+#[inline(always)]
+fn with_unit_normal(leg: LegNumbers<f64>) -> LegNumbers<f64> {
+    let inverse = |normal: &Gaussian<f64>| 1.0 / normal.norm_sqr().sqrt();
+    match leg {
+        LegNumbers::Circle { .. } => leg,
+        LegNumbers::Line { alpha, beta, normal } => {
+            LegNumbers::Line { alpha, beta, normal: normal.scaled(&inverse(&normal)) }
+        }
+        LegNumbers::PlatformLine { alpha, beta, normal, delta } => {
+            let inverse = inverse(&normal);
+            LegNumbers::PlatformLine { alpha, beta, normal: normal.scaled(&inverse), delta: delta * inverse }
+        }
+    }
+}
+
+type L = Lanes<WIDTH>;
+
+/// Where two rows of a triad cross: the two that do so best.
+#[inline(always)]
+fn above(legs: &[LegNumbers<L>; 3], c: L, s: L) -> Gaussian<L> {
+    let crossing = |p: &Row<L>, q: &Row<L>| {
+        let cross = p.cross(q);
+        // g·u = -e for both: Cramer's rule.
+        let x = (q.e * p.g.im - p.e * q.g.im) / cross;
+        let y = (p.e * q.g.re - q.e * p.g.re) / cross;
+        (cross, Gaussian::new(x, y))
+    };
+    match &triad_rows(legs, &c, &s) {
+        Rows::Circle { rows: [p, q], .. } => crossing(p, q).1,
+        Rows::Lines([p, q, r]) => {
+            let pairs = [crossing(p, q), crossing(p, r), crossing(q, r)];
+            let mut best = pairs[0];
+            for pair in &pairs[1..] {
+                for i in 0..WIDTH {
+                    if pair.0.0[i].abs() > best.0.0[i].abs() {
+                        best.0.0[i] = pair.0.0[i];
+                        best.1.re.0[i] = pair.1.re.0[i];
+                        best.1.im.0[i] = pair.1.im.0[i];
+                    }
+                }
+            }
+            best.1
+        }
+    }
+}
+
+/// A closure equation at a pose: its value and its derivatives by `u` and `phi`.
+struct ClosureRow {
+    value: L,
+    force: Gaussian<L>,
+    moment: L,
+}
+
+/// A third form of the loop equations beside rows and distances: circles are halved squares, so that their gradient is the leg itself.
+#[inline(always)]
+fn closure_row(leg: &LegNumbers<L>, u: Gaussian<L>, c: L, s: L) -> ClosureRow {
+    let rotation = Gaussian::new(c, s);
+    match leg {
+        LegNumbers::Circle { alpha, beta, length } => {
+            let arm = rotation * *beta;
+            let along = u + arm - *alpha;
+            // Half of k·k - l².
+            let value = (along.norm_sqr() - *length * *length) * L::all(0.5);
+            ClosureRow { value, force: along, moment: arm.cross(&along) }
+        }
+        LegNumbers::Line { alpha, beta, normal } => {
+            let arm = rotation * *beta;
+            let value = normal.dot(&(u + arm - *alpha));
+            ClosureRow { value, force: *normal, moment: arm.cross(normal) }
+        }
+        LegNumbers::PlatformLine { alpha, beta, normal, delta } => {
+            let turned = rotation * *normal;
+            let away = u - *alpha;
+            // Negated, so that the force is the normal as for the others.
+            let value = turned.dot(&away) + normal.dot(beta) + *delta;
+            ClosureRow { value, force: turned, moment: turned.turned().dot(&away) }
+        }
+    }
+}
+
+/// One step of Newton's method: by how much `u` and `phi` change.
+#[inline(always)]
+fn newton([p, q, r]: &[ClosureRow; 3]) -> (Gaussian<L>, L) {
+    let (pq, qr, rp) = (p.force.cross(&q.force), q.force.cross(&r.force), r.force.cross(&p.force));
+    let inverse = L::all(1.0) / (p.moment * qr + q.moment * rp + r.moment * pq);
+    let dphi = -(p.value * qr + q.value * rp + r.value * pq) * inverse;
+    // Cofactors of the first two columns.
+    let minor = |f: fn(&ClosureRow) -> L| {
+        let (x, y, z) = (f(p), f(q), f(r));
+        p.value * (y * r.moment - z * q.moment)
+            + q.value * (z * p.moment - x * r.moment)
+            + r.value * (x * q.moment - y * p.moment)
+    };
+    let x = -minor(|row| row.force.im) * inverse;
+    let y = minor(|row| row.force.re) * inverse;
+    (Gaussian::new(x, y), dphi)
+}
+
+/// Closure error over the group's size, det A, and the determinant of the rows scaled to norm 1.
+#[inline(always)]
+fn measure(legs: &[LegNumbers<L>; 3], u: Gaussian<L>, c: L, s: L) -> (L, L, L) {
+    let rotation = Gaussian::new(c, s);
+    let (zero, one) = (L::all(0.0), L::all(1.0));
+    let mut residual = zero;
+    let mut wrenches = [(Gaussian::new(zero, zero), zero); 3];
+    let mut regular = one;
+    for (leg, wrench) in legs.iter().zip(&mut wrenches) {
+        let (miss, force, moment) = match leg {
+            LegNumbers::Circle { alpha, beta, length } => {
+                let joint = u + rotation * *beta;
+                let along = joint - *alpha;
+                let distance = along.norm_sqr().map(f64::sqrt);
+                let inverse = one / distance;
+                let force = along.scaled(&inverse);
+                (distance - *length, force, joint.cross(&force))
+            }
+            LegNumbers::Line { alpha, beta, normal } => {
+                let joint = u + rotation * *beta;
+                (normal.dot(&(joint - *alpha)), *normal, joint.cross(normal))
+            }
+            LegNumbers::PlatformLine { alpha, beta, normal, delta } => {
+                let turned = rotation * *normal;
+                let on_line = u + rotation * *beta;
+                (turned.dot(&(*alpha - on_line)) - *delta, turned, alpha.cross(&turned))
+            }
+        };
+        residual = residual.zip(miss, |x, y| x.max(y.abs()));
+        regular = regular * (force.norm_sqr() + moment * moment);
+        *wrench = (force, moment);
+    }
+    let [p, q, r] = wrenches;
+    let det = p.1 * q.0.cross(&r.0) + q.1 * r.0.cross(&p.0) + r.1 * p.0.cross(&q.0);
+    (residual, det, det * regular.map(|x| 1.0 / x.sqrt()))
+}
+
+impl RealModes {
+    #[inline(always)]
+    fn sort(&mut self) {
+        for i in 1..self.count {
+            let mode = self.modes[i];
+            let mut at = i;
+            while at > 0 && self.modes[at - 1].pose.phi > mode.pose.phi {
+                self.modes[at] = self.modes[at - 1];
+                at -= 1;
+            }
+            self.modes[at] = mode;
+        }
+    }
+}
