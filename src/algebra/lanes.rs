@@ -1,9 +1,8 @@
 //! Several floats at once.
 //!
 //! The same formula over many angles or many roots is the same work in every place of an array; compilers turn such loops into SIMD
-//! instructions where the processor has them. [`Lanes`] is a [`Ring`], so that a formula written once runs over it as over one number.
+//! instructions where the processor has them, if everything is inlined: hence plain loops, and `inline(always)`. [`Lanes`] is a [`Ring`], so that a formula written once runs over it as over one number.
 
-use std::array::from_fn;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::Ring;
@@ -29,13 +28,21 @@ impl<const N: usize> Lanes<N> {
     /// `f` of two, lane by lane.
     #[inline(always)]
     pub fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
-        Self(from_fn(|i| f(self.0[i], other.0[i])))
+        let mut out = [0.0; N];
+        for i in 0..N {
+            out[i] = f(self.0[i], other.0[i]);
+        }
+        Self(out)
     }
 
     /// `f`, lane by lane.
     #[inline(always)]
     pub fn map(self, f: impl Fn(f64) -> f64) -> Self {
-        Self(from_fn(|i| f(self.0[i])))
+        let mut out = [0.0; N];
+        for i in 0..N {
+            out[i] = f(self.0[i]);
+        }
+        Self(out)
     }
 }
 

@@ -220,15 +220,20 @@ impl Triad {
 /// ```
 pub fn triad_degree(dyads: &[&str]) -> Option<usize> {
     let count = |name| dyads.iter().filter(|dyad| **dyad == name).count();
-    Some(match (count("RR"), count("PR"), count("RP"), count("PP")) {
-        (3, 0, 0, 0) | (2, 1, 0, 0) | (2, 0, 1, 0) | (1, 1, 1, 0) => 6,
-        (1, 2, 0, 0) | (1, 0, 2, 0) | (0, 2, 1, 0) | (0, 1, 2, 0) => 4,
-        (0, 3, 0, 0) | (0, 0, 3, 0) => 2,
-        (2, 0, 0, 1) | (1, 1, 0, 1) | (1, 0, 1, 1) => 2,
-        (0, 2, 0, 1) | (0, 1, 1, 1) | (0, 0, 2, 1) => 1,
-        (rr, pr, rp, pp @ 2..) if rr + pr + rp + pp == 3 => 0,
-        _ => return None,
-    })
+    let counts = ["RR", "PR", "RP", "PP"].map(count);
+    (dyads.len() == 3 && counts.iter().sum::<usize>() == 3).then(|| degree_of(counts))
+}
+
+/// The same from how many of the three are RR, PR, RP and PP.
+pub(super) fn degree_of(counts: [usize; 4]) -> usize {
+    match counts {
+        [3, 0, 0, 0] | [2, 1, 0, 0] | [2, 0, 1, 0] | [1, 1, 1, 0] => 6,
+        [1, 2, 0, 0] | [1, 0, 2, 0] | [0, 2, 1, 0] | [0, 1, 2, 0] => 4,
+        [0, 3, 0, 0] | [0, 0, 3, 0] => 2,
+        [2, 0, 0, 1] | [1, 1, 0, 1] | [1, 0, 1, 1] => 2,
+        [0, 2, 0, 1] | [0, 1, 1, 1] | [0, 0, 2, 1] => 1,
+        _ => 0,
+    }
 }
 
 #[cfg(test)]

@@ -165,17 +165,6 @@ pub(super) struct LoopEquations {
 }
 
 impl LoopEquations {
-    /// A box around the only assembly near a direction of the platform, or `None`.
-    pub fn enclose_near(&self, [c, s]: [f64; 2]) -> Option<Region<4>> {
-        let rows = self.rows.map(|row| row.map(|f| f.at(Interval::point(c), Interval::point(s)).middle()));
-        let pairs: &[(usize, usize)] = if self.radius.is_some() { &[(0, 1)] } else { &[(0, 1), (0, 2), (1, 2)] };
-        let cross = |&(i, j): &(usize, usize)| rows[i][0] * rows[j][1] - rows[i][1] * rows[j][0];
-        let &(i, j) = pairs.iter().max_by(|p, q| cross(p).abs().total_cmp(&cross(q).abs()))?;
-        let (p, q, determinant) = (rows[i], rows[j], cross(&(i, j)));
-        let u = [(p[1] * q[2] - q[1] * p[2]) / determinant, (q[0] * p[2] - p[0] * q[2]) / determinant];
-        self.enclose([u[0], u[1], c, s])
-    }
-
     /// A box around the only assembly near `(u, c, s)`, or `None`.
     pub fn enclose(&self, start: [f64; 4]) -> Option<Region<4>> {
         start.iter().all(|x| x.is_finite()).then(|| enclose_zero(self, start)).flatten()

@@ -1,7 +1,7 @@
 //! How many assembly modes, as a theorem, and a box around each.
 //!
-//! Two routes. The *filter* expands `T` in intervals, counts its real roots by the signs of Bernstein coefficients ([`crate::roots::Harmonics`])
-//! and proves a box for each on the loop equations: every root of `T` is simple then, above a simple root lies exactly one pose (step 5 of the
+//! Two routes. The *filter* counts the real roots of `T` in floating point, by a bound on all rounding errors ([`Triad::real_modes_fast`]), and proves
+//! a box for each on the loop equations in intervals: every root of `T` is simple then, above a simple root lies exactly one pose (step 5 of the
 //! derivation `filter_bound`), and boxes that do not meet hold different poses. Where a bound is not met, the *exact* route counts over the
 //! integers and rounds boxes outward from isolated roots. Either way the theorem is about the triad whose numbers are exactly the `f64`s given.
 
@@ -19,7 +19,7 @@ use super::triad::{LegNumbers, Rows, leg_row, rows_consistency, triad_rows};
 use super::vanishing::motions;
 use crate::algebra::{Integer, Interval, Rational, Ring, Trig, dyadic};
 use crate::certify::Verdict;
-use crate::roots::{Harmonics, MAX_BITS, isolate_real_roots};
+use crate::roots::{MAX_BITS, isolate_real_roots};
 
 /// Which arithmetic a proof took.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,14 +82,14 @@ impl Triad {
     ///
     /// It never decides triads with a PP leg, double roots, or modes nearer than about 1e-7.
     pub fn prove_filtered(&self) -> Option<ProvedModes> {
+        // The count is proved here already; what is left is a box for each mode.
+        let modes = self.real_modes_fast()?;
         let triad = IntervalTriad::of(self)?;
-        let (even, odd) = triad.consistency();
-        let roots = Harmonics::from_powers(&even, &odd).real_roots()?;
         let equations = triad.equations();
-        let mut found = Vec::with_capacity(roots.count());
-        for i in 0..roots.count() {
-            let direction = [roots.cosines()[i], roots.sines()[i]];
-            found.push((triad.pose(&equations.enclose_near(direction)?)?, 1));
+        let mut found = Vec::with_capacity(modes.modes().len());
+        for mode in modes.modes() {
+            let start = triad.start(mode.pose.x, mode.pose.y, mode.pose.phi);
+            found.push((triad.pose(&equations.enclose(start)?)?, 1));
         }
         let proved = ProvedModes::new(found, ProofRoute::Filter, Status::Complete);
         (proved.indistinct == 0).then_some(proved)

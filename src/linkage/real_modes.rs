@@ -11,9 +11,10 @@ use std::sync::LazyLock;
 
 use super::assemblies::{AssemblyMode, Status};
 use super::group::{Dyad, Offset, Pose, Triad};
-use super::triad::{LegNumbers, Row, Rows, consistency, triad_rows};
+use super::loop_box::IntervalTriad;
+use super::triad::{LegNumbers, Row, Rows, leg_row, rows_consistency};
 use super::verify::size;
-use crate::algebra::{Bounded, Gaussian, Lanes};
+use crate::algebra::{Bounded, Gaussian, Lanes, Ring};
 use crate::roots::{CountedRoots, Harmonics};
 
 /// As many isolated real modes as any triad has.
@@ -46,6 +47,9 @@ pub struct RealMode {
 
 const NO_MODE: RealMode =
     RealMode { pose: Pose { x: 0.0, y: 0.0, phi: 0.0 }, multiplicity: 0, residual: 0.0, det_a: 0.0 };
+
+const NONE_YET: RealModes =
+    RealModes { modes: [NO_MODE; MOST_MODES], count: 0, status: Status::Complete, route: ModesRoute::Fast };
 
 /// All real assembly modes of a triad.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,12 +90,17 @@ impl Triad {
     /// # Ok::<(), assur::TriadError>(())
     /// ```
     pub fn real_modes(&self) -> RealModes {
-        self.real_modes_fast().unwrap_or_else(|| self.real_modes_reference())
+        let mut out = NONE_YET;
+        if !ARCH.dispatch(Fast(self, &mut out)) {
+            out = self.real_modes_reference();
+        }
+        out
     }
 
     /// The fast way alone; `None` where its bounds do not decide.
     pub fn real_modes_fast(&self) -> Option<RealModes> {
-        ARCH.dispatch(|| fast(self))
+        let mut out = NONE_YET;
+        ARCH.dispatch(Fast(self, &mut out)).then_some(out)
     }
 
     /// The reference way, in the same form.
@@ -111,6 +120,17 @@ impl Triad {
 /// The processor's SIMD registers.
 static ARCH: LazyLock<pulp::Arch> = LazyLock::new(pulp::Arch::new);
 
+/// The fast way, compiled for each kind of SIMD register: everything it calls must be inlined.
+struct Fast<'a>(&'a Triad, &'a mut RealModes);
+
+impl pulp::NullaryFnOnce for Fast<'_> {
+    type Output = bool;
+    #[inline(always)]
+    fn call(self) -> Self::Output {
+        fast(self.0, self.1).is_some()
+    }
+}
+
 /// Newton steps on the loop equations, and the step (radians, and lengths over the group's) whose square is below rounding.
 const STEPS: usize = 3;
 const LAST_STEP: f64 = 1e-8;
@@ -125,23 +145,29 @@ const ROOM_SLACK: f64 = 1e-9;
 const EXPONENTS: std::ops::RangeInclusive<i32> = -300..=300;
 
 #[inline(always)]
-fn fast(triad: &Triad) -> Option<RealModes> {
+fn fast(triad: &Triad, out: &mut RealModes) -> Option<()> {
     let local = Local::of(triad)?;
-    let bound = consistency(&local.bounds, &Bounded::rounded(1.0), &Bounded::rounded(1.0));
-    let legs = local.legs.each_ref().map(|leg| leg.map(|&x| Lanes::<8>::all(x)));
-    let values = consistency(&legs, &Lanes(COSINES), &Lanes(SINES));
-    let roots = Harmonics::from_samples(&values.0, local.order, bound.error()).real_roots()?;
-    let mut out = RealModes {
-        modes: [NO_MODE; MOST_MODES],
-        count: roots.count(),
-        status: Status::Complete,
-        route: ModesRoute::Fast,
+    let unit = Bounded::rounded(1.0);
+    let bound = rows_consistency(&rows(&local.legs, |x| Bounded::rounded_times(x, local.roundings), unit, unit));
+    let values = rows_consistency(&rows(&local.legs, Lanes::<8>::all, Lanes(COSINES), Lanes(SINES)));
+    let roots = match Harmonics::from_samples(&values.0, local.order, bound.error()).real_roots() {
+        Some(roots) => roots,
+        None => closer_look(triad)?,
     };
+    out.count = roots.count();
     for first in (0..roots.count()).step_by(WIDTH) {
-        local.poses(&roots, first, &mut out)?;
+        local.poses(&roots, first, out)?;
     }
     out.sort();
-    Some(out)
+    Some(())
+}
+
+/// The roots by coefficients in intervals: a closer bound, which some random triads in ten thousand need.
+#[cold]
+#[inline(never)]
+fn closer_look(triad: &Triad) -> Option<CountedRoots> {
+    let (even, odd) = IntervalTriad::of(triad)?.consistency();
+    Harmonics::from_powers(&even, &odd).real_roots()
 }
 
 const HALF: f64 = std::f64::consts::FRAC_1_SQRT_2;
@@ -155,8 +181,8 @@ struct Local {
     legs: [LegNumbers<f64>; 3],
     /// The same with normals of length 1.
     unit_normals: [LegNumbers<f64>; 3],
-    /// Moduli of the same, with their roundings.
-    bounds: [LegNumbers<Bounded>; 3],
+    /// How often any of these numbers was rounded.
+    roundings: u32,
     order: usize,
     /// 1, or -1 where the legs are in an odd permutation of the order given.
     parity: f64,
@@ -201,31 +227,32 @@ impl Local {
         let unit = power_of_two(largest)?;
         let inverse = 1.0 / unit;
         let mut numbers = [LegNumbers::Circle { alpha: ORIGIN, beta: ORIGIN, length: 0.0 }; 3];
-        let mut bounds = numbers.map(|leg| leg.map(|_| Bounded::given(0.0)));
+        let mut roundings = 1;
         for k in 0..3 {
             let leg = &legs[sorted[k]];
             numbers[k] = local_leg(leg, a0, b0, inverse)?;
-            // An offset given as a distance is a product of a root; all else is rounded once at most.
-            let roundings = if matches!(leg, Dyad::RP { offset: Offset::Distance(_), .. }) { 4 } else { 1 };
-            bounds[k] = numbers[k].map(|&x| Bounded::rounded_times(x, roundings));
+            if matches!(leg, Dyad::RP { offset: Offset::Distance(_), .. }) {
+                // A square root of a sum, a product, and the rounding that the exact route begins with.
+                roundings = 4;
+            }
         }
-        let unit_normals = numbers.map(with_unit_normal);
+        let unit_normals = three(&numbers, with_unit_normal);
         let size = size(&unit_normals);
-        Some(Self { legs: numbers, unit_normals, bounds, order: triad.order()?, parity, unit, size, a0, b0 })
+        Some(Self { legs: numbers, unit_normals, roundings, order: triad.order()?, parity, unit, size, a0, b0 })
     }
 
     /// The poses above four roots; `None` where one needs a second look.
     #[inline(always)]
     fn poses(&self, roots: &CountedRoots, first: usize, out: &mut RealModes) -> Option<()> {
-        let take = |from: &[f64; 8]| -> L { Lanes(std::array::from_fn(|i| from[first + i])) };
-        let legs = self.legs.each_ref().map(|leg| leg.map(|&x| L::all(x)));
+        let take = |from: &[f64; 8]| Lanes([from[first], from[first + 1], from[first + 2], from[first + 3]]);
+        let legs = &self.legs;
         let (mut c, mut s, start) = (take(roots.cosines()), take(roots.sines()), take(roots.angles()));
-        let mut u = above(&legs, c, s);
+        let mut u = above(legs, c, s);
         let mut turned = L::all(0.0);
         let used = (roots.count() - first).min(WIDTH);
         let mut settled = false;
         for _ in 0..STEPS {
-            let rows = legs.each_ref().map(|leg| closure_row(leg, u, c, s));
+            let rows = [closure_row(&legs[0], u, c, s), closure_row(&legs[1], u, c, s), closure_row(&legs[2], u, c, s)];
             let (du, dphi) = newton(&rows);
             u = u + du;
             turned = turned + dphi;
@@ -244,16 +271,15 @@ impl Local {
         }
         let norm = (c * c + s * s).map(|x| 1.5 - 0.5 * x);
         (c, s) = (c * norm, s * norm);
-        let unit_normals = self.unit_normals.each_ref().map(|leg| leg.map(|&x| L::all(x)));
-        let (residual, det, regular) = measure(&unit_normals, u, c, s);
+        let (residual, det, regular) = measure(&self.unit_normals, u, c, s);
         let size = L::all(1.0 / self.size);
         let (residual, det) = (residual * size, det * size);
         for i in 0..used {
-            let room = roots.room()[first + i];
+            let [below, above] = roots.room().map(|room| room[first + i]);
             let sound = (residual.0[i] <= CLOSURE)
                 & (regular.0[i].abs() >= REGULAR)
-                & (turned.0[i] >= -room[0] - ROOM_SLACK)
-                & (turned.0[i] <= room[1] + ROOM_SLACK);
+                & (turned.0[i] >= -below - ROOM_SLACK)
+                & (turned.0[i] <= above + ROOM_SLACK);
             if !sound {
                 return None;
             }
@@ -277,6 +303,56 @@ impl Local {
         }
         Some(())
     }
+}
+
+/// `f` of each of three; unlike `array::map`, always inlined.
+#[inline(always)]
+fn three<A, B>(of: &[A; 3], f: impl Fn(&A) -> B) -> [B; 3] {
+    [f(&of[0]), f(&of[1]), f(&of[2])]
+}
+
+/// The rows of a triad over another ring. Each kind of leg is told apart before its numbers are spread, which the compiler does not do by itself.
+#[inline(always)]
+fn rows<R: Ring + Copy>(legs: &[LegNumbers<f64>; 3], number: impl Fn(f64) -> R + Copy, c: R, s: R) -> Rows<R> {
+    match legs[0] {
+        LegNumbers::Circle { length, .. } => {
+            let radius = number(length);
+            Rows::Circle { radius, rows: [row(&legs[1], radius, number, c, s), row(&legs[2], radius, number, c, s)] }
+        }
+        _ => {
+            let none = R::zero();
+            Rows::Lines([
+                row(&legs[0], none, number, c, s),
+                row(&legs[1], none, number, c, s),
+                row(&legs[2], none, number, c, s),
+            ])
+        }
+    }
+}
+
+#[inline(always)]
+fn row<R: Ring + Copy>(leg: &LegNumbers<f64>, radius: R, number: impl Fn(f64) -> R + Copy, c: R, s: R) -> Row<R> {
+    let point = |p: Gaussian<f64>| Gaussian::new(number(p.re), number(p.im));
+    match *leg {
+        LegNumbers::Circle { alpha, beta, length } => {
+            let leg = LegNumbers::Circle { alpha: point(alpha), beta: point(beta), length: number(length) };
+            leg_row(&leg, &radius, &c, &s)
+        }
+        LegNumbers::Line { alpha, beta, normal } => {
+            let leg = LegNumbers::Line { alpha: point(alpha), beta: point(beta), normal: point(normal) };
+            leg_row(&leg, &radius, &c, &s)
+        }
+        LegNumbers::PlatformLine { alpha, beta, normal, delta } => {
+            let (alpha, beta, normal) = (point(alpha), point(beta), point(normal));
+            leg_row(&LegNumbers::PlatformLine { alpha, beta, normal, delta: number(delta) }, &radius, &c, &s)
+        }
+    }
+}
+
+/// The same point in every lane.
+#[inline(always)]
+fn all(p: Gaussian<f64>) -> Gaussian<L> {
+    Gaussian { re: L::all(p.re), im: L::all(p.im) }
 }
 
 const ORIGIN: Gaussian<f64> = Gaussian { re: 0.0, im: 0.0 };
@@ -327,10 +403,10 @@ fn local_leg(leg: &Dyad, a0: [f64; 2], b0: [f64; 2], inverse: f64) -> Option<Leg
 
 /// The same leg with a normal of length 1.
 #[inline(always)]
-fn with_unit_normal(leg: LegNumbers<f64>) -> LegNumbers<f64> {
+fn with_unit_normal(leg: &LegNumbers<f64>) -> LegNumbers<f64> {
     let inverse = |normal: &Gaussian<f64>| 1.0 / normal.norm_sqr().sqrt();
-    match leg {
-        LegNumbers::Circle { .. } => leg,
+    match *leg {
+        LegNumbers::Circle { .. } => *leg,
         LegNumbers::Line { alpha, beta, normal } => {
             LegNumbers::Line { alpha, beta, normal: normal.scaled(&inverse(&normal)) }
         }
@@ -345,7 +421,7 @@ type L = Lanes<WIDTH>;
 
 /// Where two rows of a triad cross: the two that do so best.
 #[inline(always)]
-fn above(legs: &[LegNumbers<L>; 3], c: L, s: L) -> Gaussian<L> {
+fn above(legs: &[LegNumbers<f64>; 3], c: L, s: L) -> Gaussian<L> {
     let crossing = |p: &Row<L>, q: &Row<L>| {
         let cross = p.cross(q);
         // g·u = -e for both: Cramer's rule.
@@ -353,7 +429,7 @@ fn above(legs: &[LegNumbers<L>; 3], c: L, s: L) -> Gaussian<L> {
         let y = (p.e * q.g.re - q.e * p.g.re) / cross;
         (cross, Gaussian::new(x, y))
     };
-    match &triad_rows(legs, &c, &s) {
+    match &rows(legs, L::all, c, s) {
         Rows::Circle { rows: [p, q], .. } => crossing(p, q).1,
         Rows::Lines([p, q, r]) => {
             let pairs = [crossing(p, q), crossing(p, r), crossing(q, r)];
@@ -381,26 +457,23 @@ struct ClosureRow {
 
 /// A third form of the loop equations beside rows and distances: circles are halved squares, so that their gradient is the leg itself.
 #[inline(always)]
-fn closure_row(leg: &LegNumbers<L>, u: Gaussian<L>, c: L, s: L) -> ClosureRow {
+fn closure_row(leg: &LegNumbers<f64>, u: Gaussian<L>, c: L, s: L) -> ClosureRow {
     let rotation = Gaussian::new(c, s);
-    match leg {
+    match *leg {
         LegNumbers::Circle { alpha, beta, length } => {
-            let arm = rotation * *beta;
-            let along = u + arm - *alpha;
+            let arm = rotation * all(beta);
+            let along = u + arm - all(alpha);
             // Half of k·k - l².
-            let value = (along.norm_sqr() - *length * *length) * L::all(0.5);
+            let value = (along.norm_sqr() - L::all(length * length)) * L::all(0.5);
             ClosureRow { value, force: along, moment: arm.cross(&along) }
         }
         LegNumbers::Line { alpha, beta, normal } => {
-            let arm = rotation * *beta;
-            let value = normal.dot(&(u + arm - *alpha));
-            ClosureRow { value, force: *normal, moment: arm.cross(normal) }
+            let (arm, normal) = (rotation * all(beta), all(normal));
+            ClosureRow { value: normal.dot(&(u + arm - all(alpha))), force: normal, moment: arm.cross(&normal) }
         }
         LegNumbers::PlatformLine { alpha, beta, normal, delta } => {
-            let turned = rotation * *normal;
-            let away = u - *alpha;
-            // Negated, so that the force is the normal as for the others.
-            let value = turned.dot(&away) + normal.dot(beta) + *delta;
+            let (turned, away) = (rotation * all(normal), u - all(alpha));
+            let value = turned.dot(&away) + L::all(normal.dot(&beta) + delta);
             ClosureRow { value, force: turned, moment: turned.turned().dot(&away) }
         }
     }
@@ -426,39 +499,39 @@ fn newton([p, q, r]: &[ClosureRow; 3]) -> (Gaussian<L>, L) {
 
 /// Closure error over the group's size, det A, and the determinant of the rows scaled to norm 1.
 #[inline(always)]
-fn measure(legs: &[LegNumbers<L>; 3], u: Gaussian<L>, c: L, s: L) -> (L, L, L) {
+fn measure(legs: &[LegNumbers<f64>; 3], u: Gaussian<L>, c: L, s: L) -> (L, L, L) {
+    let legs = [measure_leg(&legs[0], u, c, s), measure_leg(&legs[1], u, c, s), measure_leg(&legs[2], u, c, s)];
+    let larger = |x: L, y: L| x.zip(y, |x, y| if x > y { x } else { y });
+    let residual = larger(larger(legs[0].0, legs[1].0), legs[2].0);
+    let [(_, p, pm), (_, q, qm), (_, r, rm)] = legs;
+    let det = pm * q.cross(&r) + qm * r.cross(&p) + rm * p.cross(&q);
+    let norms = (p.norm_sqr() + pm * pm) * (q.norm_sqr() + qm * qm) * (r.norm_sqr() + rm * rm);
+    (residual, det, det * norms.map(|x| 1.0 / x.sqrt()))
+}
+
+/// Closure error of a leg with a normal of length 1, its unit force, and the moment of that about the reference leg's base point.
+#[inline(always)]
+fn measure_leg(leg: &LegNumbers<f64>, u: Gaussian<L>, c: L, s: L) -> (L, Gaussian<L>, L) {
     let rotation = Gaussian::new(c, s);
-    let (zero, one) = (L::all(0.0), L::all(1.0));
-    let mut residual = zero;
-    let mut wrenches = [(Gaussian::new(zero, zero), zero); 3];
-    let mut regular = one;
-    for (leg, wrench) in legs.iter().zip(&mut wrenches) {
-        let (miss, force, moment) = match leg {
-            LegNumbers::Circle { alpha, beta, length } => {
-                let joint = u + rotation * *beta;
-                let along = joint - *alpha;
-                let distance = along.norm_sqr().map(f64::sqrt);
-                let inverse = one / distance;
-                let force = along.scaled(&inverse);
-                (distance - *length, force, joint.cross(&force))
-            }
-            LegNumbers::Line { alpha, beta, normal } => {
-                let joint = u + rotation * *beta;
-                (normal.dot(&(joint - *alpha)), *normal, joint.cross(normal))
-            }
-            LegNumbers::PlatformLine { alpha, beta, normal, delta } => {
-                let turned = rotation * *normal;
-                let on_line = u + rotation * *beta;
-                (turned.dot(&(*alpha - on_line)) - *delta, turned, alpha.cross(&turned))
-            }
-        };
-        residual = residual.zip(miss, |x, y| x.max(y.abs()));
-        regular = regular * (force.norm_sqr() + moment * moment);
-        *wrench = (force, moment);
-    }
-    let [p, q, r] = wrenches;
-    let det = p.1 * q.0.cross(&r.0) + q.1 * r.0.cross(&p.0) + r.1 * p.0.cross(&q.0);
-    (residual, det, det * regular.map(|x| 1.0 / x.sqrt()))
+    let (miss, force, moment) = match *leg {
+        LegNumbers::Circle { alpha, beta, length } => {
+            let joint = u + rotation * all(beta);
+            let along = joint - all(alpha);
+            let distance = along.norm_sqr().map(f64::sqrt);
+            let force = along.scaled(&(L::all(1.0) / distance));
+            (distance - L::all(length), force, joint.cross(&force))
+        }
+        LegNumbers::Line { alpha, beta, normal } => {
+            let (joint, normal) = (u + rotation * all(beta), all(normal));
+            (normal.dot(&(joint - all(alpha))), normal, joint.cross(&normal))
+        }
+        LegNumbers::PlatformLine { alpha, beta, normal, delta } => {
+            let (turned, alpha) = (rotation * all(normal), all(alpha));
+            let on_line = u + rotation * all(beta);
+            (turned.dot(&(alpha - on_line)) - L::all(delta), turned, alpha.cross(&turned))
+        }
+    };
+    (miss.map(f64::abs), force, moment)
 }
 
 impl RealModes {

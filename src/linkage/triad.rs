@@ -23,7 +23,7 @@
 //!
 //! Source: Gosselin, Sefrioui, Richard 1992 for RR-RR-RR; the rows of sliders are ours.
 
-use super::group::{Dyad, Triad, triad_degree};
+use super::group::{Dyad, Triad, degree_of};
 use crate::algebra::{Gaussian, Ring};
 
 /// The numbers of one leg over a ring, seen from the reference leg.
@@ -161,10 +161,17 @@ pub enum Rows<R> {
 pub fn triad_rows<R: Ring>(legs: &[LegNumbers<R>; 3], c: &R, s: &R) -> Rows<R> {
     match &legs[0] {
         LegNumbers::Circle { length, .. } => {
-            let rows = [1, 2].map(|i: usize| leg_row(&legs[i], length, c, s));
+            let rows = [leg_row(&legs[1], length, c, s), leg_row(&legs[2], length, c, s)];
             Rows::Circle { radius: length.clone(), rows }
         }
-        _ => Rows::Lines(legs.each_ref().map(|leg| leg_row(leg, &R::zero(), c, s))),
+        _ => {
+            let none = R::zero();
+            Rows::Lines([
+                leg_row(&legs[0], &none, c, s),
+                leg_row(&legs[1], &none, c, s),
+                leg_row(&legs[2], &none, c, s),
+            ])
+        }
     }
 }
 
@@ -219,6 +226,15 @@ impl Triad {
 
     /// How many assemblies there can be: the number of finite complex solutions of a generic triad of this name (see [`triad_degree`]).
     pub fn degree(&self) -> usize {
-        triad_degree(&self.legs().each_ref().map(Dyad::name)).expect("the names of dyads")
+        let mut counts = [0; 4];
+        for leg in self.legs() {
+            counts[match leg {
+                Dyad::RR { .. } => 0,
+                Dyad::PR { .. } => 1,
+                Dyad::RP { .. } => 2,
+                Dyad::PP { .. } => 3,
+            }] += 1;
+        }
+        degree_of(counts)
     }
 }

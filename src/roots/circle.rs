@@ -54,8 +54,9 @@ pub struct CountedRoots {
     cosines: [f64; LANES],
     sines: [f64; LANES],
     angles: [f64; LANES],
-    /// How far each angle may move and stay in its part of the circle: below and above.
-    room: [[f64; 2]; LANES],
+    /// How far each angle may move and stay in its part of the circle.
+    below: [f64; LANES],
+    above: [f64; LANES],
     count: usize,
 }
 
@@ -86,8 +87,8 @@ impl CountedRoots {
     }
 
     /// How far each angle may be moved, down and up, before it leaves the part of the circle in which the root is the only one.
-    pub fn room(&self) -> &[[f64; 2]; LANES] {
-        &self.room
+    pub fn room(&self) -> [&[f64; LANES]; 2] {
+        [&self.below, &self.above]
     }
 }
 
@@ -99,8 +100,8 @@ impl Harmonics {
     pub fn from_samples(values: &[f64; 8], order: usize, error: f64) -> Self {
         let v = values;
         // A Fourier transform of length eight; opposite angles first.
-        let sum: [f64; 4] = from_fn(|k| v[k] + v[k + 4]);
-        let less: [f64; 4] = from_fn(|k| v[k] - v[k + 4]);
+        let sum = [v[0] + v[4], v[1] + v[5], v[2] + v[6], v[3] + v[7]];
+        let less = [v[0] - v[4], v[1] - v[5], v[2] - v[6], v[3] - v[7]];
         let (even, odd) = (sum[0] + sum[2], sum[1] + sum[3]);
         let (p, q) = (FRAC_1_SQRT_2 * (less[1] - less[3]), FRAC_1_SQRT_2 * (less[1] + less[3]));
         let mut cosines = [even + odd, 2.0 * (less[0] + p), 2.0 * (sum[0] - sum[2]), 2.0 * (less[0] - p)];
@@ -141,19 +142,21 @@ impl Harmonics {
     #[inline(always)]
     pub fn real_roots(&self) -> Option<CountedRoots> {
         let cells = Cells::of(self, &TABLE)?;
-        let mut found = [Cell::default(); LANES];
-        let mut count = 0;
+        let mut found = Found::default();
         let mut open = cells.open();
         while open != 0 {
             let cell = cells.cell(open.trailing_zeros() as usize);
             open &= open - 1;
             match sign_changes(&cell.coefficients, cells.error) {
                 Changes::None => {}
-                Changes::One => {
-                    found[count] = cell;
-                    count += 1;
+                Changes::One => found.push(&cell),
+                Changes::Open => {
+                    let largest = cell.coefficients.iter().fold(0.0, |m: f64, c| if m > c.abs() { m } else { c.abs() });
+                    // The first halving is common; more are not.
+                    for half in &cell.halves() {
+                        half.sort_out(cells.error, largest, &mut found)?;
+                    }
                 }
-                Changes::Open => cell.halve(cells.error, &mut found, &mut count)?,
                 Changes::Lost => return None,
             }
         }
@@ -161,10 +164,11 @@ impl Harmonics {
             cosines: [1.0; LANES],
             sines: [0.0; LANES],
             angles: [0.0; LANES],
-            room: [[0.0; 2]; LANES],
-            count,
+            below: [0.0; LANES],
+            above: [0.0; LANES],
+            count: found.count,
         };
-        for first in (0..count).step_by(WIDTH) {
+        for first in (0..found.count).step_by(WIDTH) {
             find_roots(&found, first, &mut out);
         }
         Some(out)
@@ -175,12 +179,22 @@ impl Harmonics {
 struct Table {
     /// `[j][f][l]`: coefficient `j` of function `f` over cell `l`; functions 1, cos 2phi, sin 2phi, cos phi, cos 3phi, sin phi, sin 3phi.
     coefficients: [[Lanes<WIDTH>; 7]; DEGREE + 1],
-    /// Cosine and sine of the middle of each cell.
-    middles: [[f64; 2]; WIDTH],
+    /// Where each of the sixteen cells lies, `4·side + l`.
+    places: [CellPlace; 4 * WIDTH],
     /// Cosine and sine of one, two and three times the turn.
     turns: [[f64; 2]; 3],
     /// Tangent of a quarter of a cell's width.
     tangent: f64,
+}
+
+/// The middle of a cell.
+#[derive(Clone, Copy)]
+struct CellPlace {
+    angle: f64,
+    cosine: f64,
+    sine: f64,
+    /// 1, or -1 where the cell is run through clockwise.
+    sense: f64,
 }
 
 /// A quarter of a cell's width.
@@ -208,12 +222,22 @@ impl Table {
         };
         // Frequency, and 0 for cosine, 1 for sine.
         let functions = [(0, 0), (2, 0), (2, 1), (1, 0), (3, 0), (1, 1), (3, 1)];
-        let middle = |l: usize| STEP * (4 * l + 2) as f64;
+        let place = |which: usize| {
+            let own = STEP * (4 * (which % WIDTH) + 2) as f64;
+            let (sense, angle) = match which / WIDTH {
+                0 => (1.0, own),
+                1 => (1.0, own - PI),
+                2 => (-1.0, -own),
+                _ => (-1.0, PI - own),
+            };
+            let angle = angle + TURN;
+            CellPlace { angle, cosine: angle.cos(), sine: angle.sin(), sense }
+        };
         Self {
             coefficients: from_fn(|j| {
                 functions.map(|(k, part): (i32, usize)| Lanes(from_fn(|l| function(j as i32, k, l as i32)[part])))
             }),
-            middles: from_fn(|l| [middle(l).cos(), middle(l).sin()]),
+            places: from_fn(place),
             turns: [1.0, 2.0, 3.0].map(|k| [(k * TURN).cos(), (k * TURN).sin()]),
             tangent: STEP.tan(),
         }
@@ -241,26 +265,27 @@ struct Cells {
 impl Cells {
     #[inline(always)]
     fn of(t: &Harmonics, table: &Table) -> Option<Self> {
-        let turned: [[f64; 2]; 3] = from_fn(|k| {
+        let mut turned = [[0.0; 2]; 3];
+        let mut sum = t.cosines[0].abs();
+        for k in 0..3 {
             let ([c, s], a, b) = (table.turns[k], t.cosines[k + 1], t.sines[k]);
-            [a * c + b * s, b * c - a * s]
-        });
-        let sum = t.cosines.iter().chain(&t.sines).map(|x| x.abs()).sum::<f64>();
+            turned[k] = [a * c + b * s, b * c - a * s];
+            sum += a.abs() + b.abs();
+        }
         if !RANGE.contains(&sum) {
             return None;
         }
         // Step 4 of the derivation: 6 roundings for the turn, 24 · sqrt 2 for the table and the sums.
         let error = (t.error + 41.0 * UNIT * sum) * MARGIN;
-        let numbers =
-            [t.cosines[0], turned[1][0], turned[1][1], turned[0][0], turned[2][0], turned[0][1], turned[2][1]]
-                .map(Lanes::<WIDTH>::all);
+        let all = Lanes::<WIDTH>::all;
+        let (constant, second) = (all(t.cosines[0]), [all(turned[1][0]), all(turned[1][1])]);
+        let (first, third) = ([all(turned[0][0]), all(turned[0][1])], [all(turned[2][0]), all(turned[2][1])]);
         let mut coefficients = [[Lanes::all(0.0); DEGREE + 1]; 4];
         for j in 0..=DEGREE {
             let [one, c2, s2, c1, c3, s1, s3] = table.coefficients[j];
-            let even_cosines = one * numbers[0] + c2 * numbers[1];
-            let even_sines = s2 * numbers[2];
-            let odd_cosines = c1 * numbers[3] + c3 * numbers[4];
-            let odd_sines = s1 * numbers[5] + s3 * numbers[6];
+            let (even_cosines, even_sines) = (one * constant + c2 * second[0], s2 * second[1]);
+            let odd_cosines = c1 * first[0] + c3 * third[0];
+            let odd_sines = s1 * first[1] + s3 * third[1];
             let (even, odd) = (even_cosines + even_sines, odd_cosines + odd_sines);
             let (mirrored_even, mirrored_odd) = (even_cosines - even_sines, odd_cosines - odd_sines);
             coefficients[0][j] = even + odd;
@@ -276,10 +301,11 @@ impl Cells {
     fn open(&self) -> u32 {
         let mut bits = 0;
         for (side, coefficients) in self.coefficients.iter().enumerate() {
-            let low =
-                coefficients[1..].iter().fold(coefficients[0], |m, c| m.zip(*c, |x, y| if x < y { x } else { y }));
-            let high =
-                coefficients[1..].iter().fold(coefficients[0], |m, c| m.zip(*c, |x, y| if x > y { x } else { y }));
+            let (mut low, mut high) = (coefficients[0], coefficients[0]);
+            for &c in &coefficients[1..] {
+                low = low.zip(c, |x, y| if x < y { x } else { y });
+                high = high.zip(c, |x, y| if x > y { x } else { y });
+            }
             for l in 0..WIDTH {
                 let closed = low.0[l] > self.error || high.0[l] < -self.error;
                 bits |= u32::from(!closed) << (4 * side + l);
@@ -291,7 +317,10 @@ impl Cells {
     #[inline(always)]
     fn cell(&self, which: usize) -> Cell {
         let (side, l) = (which / WIDTH, which % WIDTH);
-        let coefficients = from_fn(|j| self.coefficients[side][j].0[l]);
+        let mut coefficients = [0.0; DEGREE + 1];
+        for (own, all) in coefficients.iter_mut().zip(&self.coefficients[side]) {
+            *own = all.0[l];
+        }
         Cell { coefficients, from: 0.0, width: 1.0, which: which as u32, depth: 0 }
     }
 }
@@ -304,6 +333,30 @@ struct Cell {
     width: f64,
     which: u32,
     depth: u32,
+}
+
+/// Cells with one root each, side by side.
+#[derive(Default)]
+struct Found {
+    /// `[j]`: coefficient `j` of each cell.
+    coefficients: [[f64; LANES]; DEGREE + 1],
+    from: [f64; LANES],
+    width: [f64; LANES],
+    which: [u32; LANES],
+    count: usize,
+}
+
+impl Found {
+    #[inline(always)]
+    fn push(&mut self, cell: &Cell) {
+        // Six at most: the form has degree 6.
+        let at = self.count;
+        for (all, &own) in self.coefficients.iter_mut().zip(&cell.coefficients) {
+            all[at] = own;
+        }
+        (self.from[at], self.width[at], self.which[at]) = (cell.from, cell.width, cell.which);
+        self.count += 1;
+    }
 }
 
 /// The bound after `depth` halvings: each is six averages, each of one rounding of a number at most `largest`.
@@ -361,35 +414,26 @@ fn sign_changes_with_unknown(plus: u32, minus: u32) -> Changes {
 }
 
 impl Cell {
-    /// The parts of an open cell with one root each; `None` where the bound does not tell.
-    #[inline(never)]
-    fn halve(self, error: f64, found: &mut [Cell; LANES], count: &mut usize) -> Option<()> {
-        let largest = self.coefficients.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
-        let mut stack = [Cell::default(); MAX_DEPTH as usize + 2];
-        stack[0] = self;
-        let mut height = 1;
-        while height > 0 {
-            height -= 1;
-            if stack[height].depth >= MAX_DEPTH {
-                return None;
-            }
-            for half in stack[height].halves() {
-                match sign_changes(&half.coefficients, error_at(error, largest, half.depth)) {
-                    Changes::None => {}
-                    Changes::One => {
-                        // Six roots at most: the form has degree 6.
-                        found[*count] = half;
-                        *count += 1;
-                    }
-                    Changes::Lost => return None,
-                    Changes::Open => {
-                        stack[height] = half;
-                        height += 1;
-                    }
-                }
-            }
+    /// Books a half of a cell that has no root or one, else its own halves; `None` where the bound does not tell.
+    #[inline(always)]
+    fn sort_out(&self, error: f64, largest: f64, found: &mut Found) -> Option<()> {
+        match sign_changes(&self.coefficients, error_at(error, largest, self.depth)) {
+            Changes::None => {}
+            Changes::One => found.push(self),
+            Changes::Lost => return None,
+            Changes::Open => self.halve(error, largest, found)?,
         }
         Some(())
+    }
+
+    #[inline(never)]
+    fn halve(&self, error: f64, largest: f64, found: &mut Found) -> Option<()> {
+        if self.depth >= MAX_DEPTH {
+            return None;
+        }
+        let [left, right] = self.halves();
+        left.sort_out(error, largest, found)?;
+        right.sort_out(error, largest, found)
     }
 
     /// The two halves, by de Casteljau's averages.
@@ -415,10 +459,13 @@ const SMALL_STEP: f64 = 1e-8;
 
 /// The roots of four cells side by side: Newton's method, kept inside by bisection.
 #[inline(always)]
-fn find_roots(cells: &[Cell; LANES], first: usize, out: &mut CountedRoots) {
-    let cells: [&Cell; WIDTH] = from_fn(|i| &cells[first + i]);
+fn find_roots(found: &Found, first: usize, out: &mut CountedRoots) {
+    let take = |from: &[f64; LANES]| Lanes([from[first], from[first + 1], from[first + 2], from[first + 3]]);
     // Powers of the place in the cell: forward differences times binomials.
-    let mut powers: [Lanes<WIDTH>; DEGREE + 1] = from_fn(|j| Lanes(cells.map(|cell| cell.coefficients[j])));
+    let mut powers = [Lanes::<WIDTH>::all(0.0); DEGREE + 1];
+    for (power, coefficients) in powers.iter_mut().zip(&found.coefficients) {
+        *power = take(coefficients);
+    }
     let (start, end) = (powers[0], powers[DEGREE]);
     for level in 0..DEGREE {
         for k in (level + 1..=DEGREE).rev() {
@@ -438,14 +485,17 @@ fn find_roots(cells: &[Cell; LANES], first: usize, out: &mut CountedRoots) {
         }
         // Same sign as at the start: the root lies beyond.
         let before = start * value;
-        low = Lanes(from_fn(|i| if before.0[i] > 0.0 { place.0[i] } else { low.0[i] }));
-        high = Lanes(from_fn(|i| if before.0[i] > 0.0 { high.0[i] } else { place.0[i] }));
+        for i in 0..WIDTH {
+            low.0[i] = if before.0[i] > 0.0 { place.0[i] } else { low.0[i] };
+            high.0[i] = if before.0[i] > 0.0 { high.0[i] } else { place.0[i] };
+        }
         let newton = place - value / slope;
         let middle = (low + high) * Lanes::all(0.5);
-        let next: Lanes<WIDTH> = Lanes(from_fn(|i| {
+        let mut next = middle;
+        for i in 0..WIDTH {
             let inside = (newton.0[i] >= low.0[i]) & (newton.0[i] <= high.0[i]);
-            if inside { newton.0[i] } else { middle.0[i] }
-        }));
+            next.0[i] = if inside { newton.0[i] } else { middle.0[i] };
+        }
         let step = (next - place).map(f64::abs);
         place = next;
         // Lanes without a cell hold NaN, which compares as small.
@@ -454,7 +504,8 @@ fn find_roots(cells: &[Cell; LANES], first: usize, out: &mut CountedRoots) {
         }
     }
     let table = &*TABLE;
-    let along: Lanes<WIDTH> = Lanes(from_fn(|i| 2.0 * (cells[i].from + cells[i].width * place.0[i]) - 1.0));
+    let along = take(&found.from) + take(&found.width) * place;
+    let along = along + along - Lanes::all(1.0);
     let tangent = along * Lanes::all(table.tangent);
     let square = tangent * tangent;
     // Half the angle from the cell's middle: the arc tangent's series, |tangent| < 0.1.
@@ -462,26 +513,27 @@ fn find_roots(cells: &[Cell; LANES], first: usize, out: &mut CountedRoots) {
     let angle = tangent * series;
     let scale = Lanes::all(1.0) / (Lanes::all(1.0) + square);
     let (cosine, sine) = ((Lanes::all(1.0) - square) * scale, (tangent + tangent) * scale);
-    let [turn_cosine, turn_sine] = table.turns[0];
-    for i in 0..WIDTH {
-        let (side, l) = (cells[i].which as usize / WIDTH, cells[i].which as usize % WIDTH);
-        let [c, s] = table.middles[l];
-        let (x, y) = (c * cosine.0[i] - s * sine.0[i], s * cosine.0[i] + c * sine.0[i]);
-        let (x, y, base, mirror) = match side {
-            0 => (x, y, 0.0, 1.0),
-            1 => (-x, -y, PI, 1.0),
-            2 => (x, -y, 0.0, -1.0),
-            _ => (-x, y, PI, -1.0),
-        };
-        out.cosines[first + i] = x * turn_cosine - y * turn_sine;
-        out.sines[first + i] = y * turn_cosine + x * turn_sine;
-        let whole = base + mirror * (STEP * (4 * l + 2) as f64 + 2.0 * angle.0[i]) + TURN;
-        out.angles[first + i] = if whole > PI { whole - TAU } else { whole };
-        // The angle is no linear function of the place, but within a hundredth it is.
-        let width = 0.98 * 4.0 * STEP * cells[i].width;
-        let room = [width * place.0[i], width * (1.0 - place.0[i])];
-        out.room[first + i] = if side >= 2 { [room[1], room[0]] } else { room };
-    }
+    let places = &table.places;
+    let [i, j, k, l] = [0, 1, 2, 3].map(|lane| found.which[first + lane] as usize);
+    let of = |f: fn(&CellPlace) -> f64| Lanes([f(&places[i]), f(&places[j]), f(&places[k]), f(&places[l])]);
+    let (middle_cosine, middle_sine, sense) = (of(|p| p.cosine), of(|p| p.sine), of(|p| p.sense));
+    let sine = sine * sense;
+    let whole = of(|p| p.angle) + sense * (angle + angle);
+    let whole = whole.map(|x| if x > PI { x - TAU } else { x });
+    put(&mut out.cosines, first, middle_cosine * cosine - middle_sine * sine);
+    put(&mut out.sines, first, middle_sine * cosine + middle_cosine * sine);
+    put(&mut out.angles, first, whole);
+    // The angle is no linear function of the place, but within a hundredth it is.
+    let width = take(&found.width) * Lanes::all(0.98 * 4.0 * STEP);
+    let half = Lanes::all(0.5);
+    let below = width * (half + sense * (place - half));
+    put(&mut out.below, first, below);
+    put(&mut out.above, first, width - below);
+}
+
+#[inline(always)]
+fn put(to: &mut [f64; LANES], first: usize, from: Lanes<WIDTH>) {
+    to[first..first + WIDTH].copy_from_slice(&from.0);
 }
 
 /// `atan x = x (1 - x²/3 + x⁴/5 …)`; what is left out is below `1e-17` for `x < 0.1`.
