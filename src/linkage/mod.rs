@@ -6,6 +6,7 @@
 mod assemble;
 mod assemblies;
 mod certificate;
+mod closure_row;
 mod constraint;
 mod dyad;
 mod exact_box;

@@ -82,15 +82,8 @@ impl Triad {
     ///
     /// It never decides triads with a PP leg, double roots, or modes nearer than about 1e-7.
     pub fn prove_filtered(&self) -> Option<ProvedModes> {
-        // The count is proved here already; what is left is a box for each mode.
-        let modes = self.real_modes_fast()?;
-        let triad = IntervalTriad::of(self)?;
-        let equations = triad.equations();
-        let mut found = Vec::with_capacity(modes.modes().len());
-        for mode in modes.modes() {
-            let start = triad.start(mode.pose.x, mode.pose.y, mode.pose.phi);
-            found.push((triad.pose(&equations.enclose(start)?)?, 1));
-        }
+        let (boxes, count) = self.boxes_fast()?;
+        let found = boxes[..count].iter().map(|&pose| (pose, 1)).collect();
         let proved = ProvedModes::new(found, ProofRoute::Filter, Status::Complete);
         (proved.indistinct == 0).then_some(proved)
     }

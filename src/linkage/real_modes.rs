@@ -10,18 +10,16 @@
 use std::sync::LazyLock;
 
 use super::assemblies::{AssemblyMode, Status};
+use super::closure_row::{WIDTH, closure_rows, newton_step, proved_radii};
 use super::group::{Dyad, Offset, Pose, Triad};
-use super::loop_box::IntervalTriad;
+use super::loop_box::{IntervalTriad, PoseIntervals};
 use super::triad::{LegNumbers, Row, Rows, leg_row, rows_consistency};
 use super::verify::size;
-use crate::algebra::{Bounded, Gaussian, Lanes, Ring};
+use crate::algebra::{Bounded, Gaussian, Interval, Lanes, Ring};
 use crate::roots::{CountedRoots, Harmonics};
 
 /// As many isolated real modes as any triad has.
 pub const MOST_MODES: usize = 6;
-
-/// Roots are worked on in fours.
-const WIDTH: usize = 4;
 
 /// Which way an answer was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,7 +89,7 @@ impl Triad {
     /// ```
     pub fn real_modes(&self) -> RealModes {
         let mut out = NONE_YET;
-        if !ARCH.dispatch(Fast(self, &mut out)) {
+        if !ARCH.dispatch(Fast(self, &mut out, None)) {
             out = self.real_modes_reference();
         }
         out
@@ -100,7 +98,13 @@ impl Triad {
     /// The fast way alone; `None` where its bounds do not decide.
     pub fn real_modes_fast(&self) -> Option<RealModes> {
         let mut out = NONE_YET;
-        ARCH.dispatch(Fast(self, &mut out)).then_some(out)
+        ARCH.dispatch(Fast(self, &mut out, None)).then_some(out)
+    }
+
+    /// The fast way with a box around each mode, each proved to hold exactly one assembly; in no order.
+    pub(super) fn boxes_fast(&self) -> Option<(Boxes, usize)> {
+        let (mut out, mut boxes) = (NONE_YET, [[Interval::ZERO; 3]; MOST_MODES]);
+        ARCH.dispatch(Fast(self, &mut out, Some(&mut boxes))).then_some((boxes, out.count))
     }
 
     /// The reference way, in the same form.
@@ -121,13 +125,16 @@ impl Triad {
 static ARCH: LazyLock<pulp::Arch> = LazyLock::new(pulp::Arch::new);
 
 /// The fast way, compiled for each kind of SIMD register: everything it calls must be inlined.
-struct Fast<'a>(&'a Triad, &'a mut RealModes);
+struct Fast<'a>(&'a Triad, &'a mut RealModes, Option<&'a mut Boxes>);
+
+/// `[x, y, phi]` of each mode, before sorting.
+pub(super) type Boxes = [PoseIntervals; MOST_MODES];
 
 impl pulp::NullaryFnOnce for Fast<'_> {
     type Output = bool;
     #[inline(always)]
     fn call(self) -> Self::Output {
-        fast(self.0, self.1).is_some()
+        fast(self.0, self.1, self.2).is_some()
     }
 }
 
@@ -145,7 +152,7 @@ const ROOM_SLACK: f64 = 1e-9;
 const EXPONENTS: std::ops::RangeInclusive<i32> = -300..=300;
 
 #[inline(always)]
-fn fast(triad: &Triad, out: &mut RealModes) -> Option<()> {
+fn fast(triad: &Triad, out: &mut RealModes, mut boxes: Option<&mut Boxes>) -> Option<()> {
     let local = Local::of(triad)?;
     let unit = Bounded::rounded(1.0);
     let bound = rows_consistency(&rows(&local.legs, |x| Bounded::rounded_times(x, local.roundings), unit, unit));
@@ -156,7 +163,7 @@ fn fast(triad: &Triad, out: &mut RealModes) -> Option<()> {
     };
     out.count = roots.count();
     for first in (0..roots.count()).step_by(WIDTH) {
-        local.poses(&roots, first, out)?;
+        local.poses(&roots, first, out, boxes.as_deref_mut())?;
     }
     out.sort();
     Some(())
@@ -243,7 +250,7 @@ impl Local {
 
     /// The poses above four roots; `None` where one needs a second look.
     #[inline(always)]
-    fn poses(&self, roots: &CountedRoots, first: usize, out: &mut RealModes) -> Option<()> {
+    fn poses(&self, roots: &CountedRoots, first: usize, out: &mut RealModes, boxes: Option<&mut Boxes>) -> Option<()> {
         let take = |from: &[f64; 8]| Lanes([from[first], from[first + 1], from[first + 2], from[first + 3]]);
         let legs = &self.legs;
         let (mut c, mut s, start) = (take(roots.cosines()), take(roots.sines()), take(roots.angles()));
@@ -252,8 +259,7 @@ impl Local {
         let used = (roots.count() - first).min(WIDTH);
         let mut settled = false;
         for _ in 0..STEPS {
-            let rows = [closure_row(&legs[0], u, c, s), closure_row(&legs[1], u, c, s), closure_row(&legs[2], u, c, s)];
-            let (du, dphi) = newton(&rows);
+            let (du, dphi) = newton_step(&closure_rows(legs, u, c, s));
             u = u + du;
             turned = turned + dphi;
             let half = dphi * dphi * L::all(0.5);
@@ -301,9 +307,35 @@ impl Local {
                 det_a: self.parity * det.0[i],
             };
         }
+        if let Some(boxes) = boxes {
+            let radii = proved_radii(legs, self.roundings, u, c, s, used);
+            for i in 0..used {
+                let [ux, uy, turn] = radii.map(|r| r.0[i]);
+                // NaN where nothing was proved.
+                if !(ux + uy + turn).is_finite() {
+                    return None;
+                }
+                let Pose { x, y, phi } = out.modes[first + i].pose;
+                let b0 = self.b0[0].abs() + self.b0[1].abs();
+                let u = [u.re.0[i], u.im.0[i]].map(|u| u.abs() * self.unit);
+                // Six roundings in x and y, and the direction's own.
+                let shift = |radius: f64, a0: f64, u: f64| {
+                    (radius * self.unit + b0 * (turn + 4.0 * UNIT) + 6.0 * UNIT * (a0.abs() + u + b0)) * (1.0 + 1e-12)
+                };
+                let radii = [shift(ux, self.a0[0], u[0]), shift(uy, self.a0[1], u[1]), turn + ANGLE_ERROR];
+                let around = |k: usize, x: f64| Interval::around(x, radii[k]);
+                boxes[first + i] = [around(0, x), around(1, y), around(2, phi)];
+            }
+        }
         Some(())
     }
 }
+
+/// Unit roundoff of `f64`.
+const UNIT: f64 = f64::EPSILON / 2.0;
+
+/// A bound on the difference between the angle and the direction that were computed side by side: step 7 of the derivation.
+const ANGLE_ERROR: f64 = 64.0 * UNIT;
 
 /// `f` of each of three; unlike `array::map`, always inlined.
 #[inline(always)]
@@ -446,55 +478,6 @@ fn above(legs: &[LegNumbers<f64>; 3], c: L, s: L) -> Gaussian<L> {
             best.1
         }
     }
-}
-
-/// A closure equation at a pose: its value and its derivatives by `u` and `phi`.
-struct ClosureRow {
-    value: L,
-    force: Gaussian<L>,
-    moment: L,
-}
-
-/// A third form of the loop equations beside rows and distances: circles are halved squares, so that their gradient is the leg itself.
-#[inline(always)]
-fn closure_row(leg: &LegNumbers<f64>, u: Gaussian<L>, c: L, s: L) -> ClosureRow {
-    let rotation = Gaussian::new(c, s);
-    match *leg {
-        LegNumbers::Circle { alpha, beta, length } => {
-            let arm = rotation * all(beta);
-            let along = u + arm - all(alpha);
-            // Half of k·k - l².
-            let value = (along.norm_sqr() - L::all(length * length)) * L::all(0.5);
-            ClosureRow { value, force: along, moment: arm.cross(&along) }
-        }
-        LegNumbers::Line { alpha, beta, normal } => {
-            let (arm, normal) = (rotation * all(beta), all(normal));
-            ClosureRow { value: normal.dot(&(u + arm - all(alpha))), force: normal, moment: arm.cross(&normal) }
-        }
-        LegNumbers::PlatformLine { alpha, beta, normal, delta } => {
-            let (turned, away) = (rotation * all(normal), u - all(alpha));
-            let value = turned.dot(&away) + L::all(normal.dot(&beta) + delta);
-            ClosureRow { value, force: turned, moment: turned.turned().dot(&away) }
-        }
-    }
-}
-
-/// One step of Newton's method: by how much `u` and `phi` change.
-#[inline(always)]
-fn newton([p, q, r]: &[ClosureRow; 3]) -> (Gaussian<L>, L) {
-    let (pq, qr, rp) = (p.force.cross(&q.force), q.force.cross(&r.force), r.force.cross(&p.force));
-    let inverse = L::all(1.0) / (p.moment * qr + q.moment * rp + r.moment * pq);
-    let dphi = -(p.value * qr + q.value * rp + r.value * pq) * inverse;
-    // Cofactors of the first two columns.
-    let minor = |f: fn(&ClosureRow) -> L| {
-        let (x, y, z) = (f(p), f(q), f(r));
-        p.value * (y * r.moment - z * q.moment)
-            + q.value * (z * p.moment - x * r.moment)
-            + r.value * (x * q.moment - y * p.moment)
-    };
-    let x = -minor(|row| row.force.im) * inverse;
-    let y = minor(|row| row.force.re) * inverse;
-    (Gaussian::new(x, y), dphi)
 }
 
 /// Closure error over the group's size, det A, and the determinant of the rows scaled to norm 1.
