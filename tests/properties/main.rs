@@ -9,6 +9,8 @@ mod laws;
 mod legs;
 mod planted;
 mod questions;
+#[path = "../random/mod.rs"]
+mod random;
 mod sturm;
 mod triads;
 mod troubled;
