@@ -119,9 +119,6 @@ fn triads_with_adversarial_numbers_are_answered_and_proofs_agree() {
         assert_eq!(answer.limit.is_some(), answer.status == Status::Undecided, "{triad:?}");
         undecided += u64::from(answer.limit.is_some());
         slowest = slowest.max(start.elapsed());
-        if start.elapsed() > Duration::from_secs(1) || answer.limit.is_some() {
-            println!("XX {:?} {:?} {:?} {:?}", start.elapsed(), answer.limit, answer.account, triad);
-        }
         assert!(start.elapsed() < PATIENCE, "{:?}: {triad:?}", start.elapsed());
         let certificate = answer.certificate.expect("asked for");
         if certificate.complete {

@@ -313,7 +313,8 @@ impl<'a> Gathering<'a> {
         let rotation = solution.theta / solution.theta.norm();
         let at = Placement { rotation, u: solution.u[0] };
         let scale = if self.size > 0.0 { self.size } else { 1.0 };
-        let residual = residual(self.legs, at) / scale;
+        // A platform far outside the group cannot be placed better than its distance is rounded.
+        let residual = residual(self.legs, at) / scale.max(at.u.norm());
         let phi = principal(rotation.arg());
         // The pose's own rounded angle turns the reference point, so that the rounding of phi does not swing the platform about a
         // far origin.

@@ -50,7 +50,8 @@ pub struct AssemblyMode {
     pub pose: Pose,
     /// How many modes meet here: 1 for an ordinary mode, more where the mechanism is singular.
     pub multiplicity: usize,
-    /// Largest closure error of the assembled group over its largest length, measured on the geometry.
+    /// Largest closure error of the assembled group over its largest length, measured on the geometry; where the platform stands further away than that, over
+    /// its distance.
     pub residual: f64,
     /// Sign and size of det A: the determinant of the three leg normals as wrenches, scaled to unit forces and the group's size.
     pub det_a: f64,

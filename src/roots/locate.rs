@@ -10,7 +10,7 @@ use thiserror::Error;
 
 use super::companion::companion_roots;
 use super::isolate::isolate_real_roots;
-use super::polish::{FineRoot, NotSettled, polish_roots, scaled};
+use super::polish::{FineRoot, NotSettled, polish, scaled};
 use super::wide::Wide;
 use crate::algebra::{Gaussian, Integer, UPoly, integer_to_f64_scaled};
 
@@ -58,13 +58,12 @@ pub fn locate_on_circle(
     let sizes = root_sizes(in_theta);
     // The smallest root has to keep its digits.
     let extra = sizes.iter().min().map_or(0, |&smallest| (-smallest).max(0) as usize);
-    let mut starts = starting_values(in_theta, &sizes, bits + extra);
+    let mut roots = starting_values(in_theta, &sizes, bits + extra);
     let mut bits = bits;
     loop {
-        let outcome = polish_roots(in_theta, &starts, bits + extra).map_err(NotLocated::from).and_then(|roots| {
-            starts.clone_from(&roots);
-            tell_apart(roots, counted)
-        });
+        // What was reached serves the next attempt.
+        let settled = polish(in_theta, &mut roots, bits + extra);
+        let outcome = settled.map_err(NotLocated::from).and_then(|()| tell_apart(roots.clone(), counted));
         match outcome {
             Err(_) if 2 * bits <= MAX_BITS => bits *= 2,
             outcome => return outcome,
@@ -130,7 +129,12 @@ fn starting_values(in_theta: &UPoly<Gaussian<Integer>>, sizes: &[i64], bits: usi
         if let Ok(roots) = companion_roots(&rounded)
             && roots.finite.len() == sizes.len()
         {
-            return roots.finite.iter().map(|&root| FineRoot::from_complex(root, bits)).collect();
+            // No more bits than they are worth, so that those that coincide are parted by their own inaccuracy.
+            return roots
+                .finite
+                .iter()
+                .map(|&root| FineRoot::from_complex(root, COMPANION_RANGE as usize + 40))
+                .collect();
         }
     }
     let angle = |k: usize| 0.4 + 6.1 * k as f64 / sizes.len() as f64;

@@ -70,7 +70,7 @@ pub struct NotSettled {
     pub steps: usize,
 }
 
-/// Steps allowed. Six roots from random starts settle in under 20; a cluster 2⁻⁶⁰ wide in about 60.
+/// Steps allowed, and one more for every second bit. Six roots from random starts settle in under 20; a cluster 2⁻⁶⁰ wide in about 60.
 const MAX_STEPS: usize = 300;
 
 /// Last bits that may still move when a root counts as settled.
@@ -80,14 +80,18 @@ const SLACK_BITS: usize = 6;
 /// own error.
 const ALONE_BITS: i64 = 30;
 
-/// How far a stuck iterate is set aside, relative to its size: 2^-10, far above rounding, far below what starts are worth.
+/// How far an iterate that stands still is set aside, relative to its size: 2^-10, far above rounding, far below what starts are worth. One that
+/// coincides with another goes by the last bit of the starts.
 const NUDGE: i64 = -10;
+
+/// A nudge is at least so many last bits long, to be one in its direction.
+const NUDGE_BITS: i64 = 4;
 
 /// All roots of a square-free polynomial over the Gaussian integers, from rough starting values, to `2^-bits` absolute.
 ///
 /// **Shape**: as many starting values as the degree; root `k` belongs to start `k`.
 /// **Accuracy**: the last correction of each root was below `2^(6-bits)·max(1, |root|)`, evaluated without rounding.
-/// **Errors**: [`NotSettled`] after 300 steps; the polynomial then is not square-free or needs more bits.
+/// **Errors**: [`NotSettled`] after some hundred steps, or where two iterates meet; the polynomial then is not square-free or needs more bits.
 /// **Cost**: about 10 µs per root for degree 6 and 160 bits.
 ///
 /// ```
@@ -104,14 +108,23 @@ pub fn polish_roots(
     starts: &[FineRoot],
     bits: usize,
 ) -> Result<Vec<FineRoot>, NotSettled> {
-    assert_eq!(p.degree(), Some(starts.len()), "one starting value per root");
-    let degree = starts.len();
+    let mut roots = starts.to_vec();
+    polish(p, &mut roots, bits).map(|()| roots)
+}
+
+/// The same in place: where the iteration does not settle, the roots are as near as it came, to start from with more bits.
+pub(super) fn polish(p: &UPoly<Gaussian<Integer>>, roots: &mut [FineRoot], bits: usize) -> Result<(), NotSettled> {
+    assert_eq!(p.degree(), Some(roots.len()), "one starting value per root");
+    let degree = roots.len();
     let derivative = p.derivative();
-    let mut roots: Vec<FineRoot> = starts.iter().map(|start| start.with_bits(bits)).collect();
+    let coarsest = roots.iter().map(|start| start.bits).min().unwrap_or(bits) as i64;
+    roots.iter_mut().for_each(|root| *root = root.with_bits(bits));
     let mut settled = vec![false; degree];
-    for _ in 0..MAX_STEPS {
+    // From half of the bits on, a pair of roots as near as the last bit comes apart by a factor of three at each step.
+    let steps = MAX_STEPS + bits / 2;
+    for step in 0..steps {
         if settled.iter().all(|&s| s) {
-            return Ok(roots);
+            return Ok(());
         }
         for k in 0..degree {
             if settled[k] {
@@ -131,26 +144,32 @@ pub fn polish_roots(
                 .collect();
             // 1/correction = p'/p - sum over the others of 1/(root - other)
             let crowded = gaps.iter().any(|gap| gap.is_zero());
+            if crowded && step > 0 {
+                // Two roots nearer than the last bit.
+                return Err(NotSettled { bits, steps: step });
+            }
             let correction = (!crowded).then(|| {
                 let newton = Wide::of(&slope, -unit) * Wide::of(&value, 0).inv();
                 gaps.iter().fold(newton, |sum, gap| sum - gap.inv())
             });
             let Some(correction) = correction.filter(|inverse| !inverse.is_zero()).map(Wide::inv) else {
-                // Two iterates coincide, or stand still by symmetry: a nudge in a direction of its own sets this one free.
-                let size = Wide::of(&roots[k].numerator, unit).size().max(unit);
-                let nudge = Wide::new(Complex64::from_polar(1.0, 1.0 + k as f64), size + NUDGE);
+                // Two starts coincide, or an iterate stands still by symmetry: a nudge in a direction of its own sets this one free.
+                let size =
+                    if crowded { -coarsest } else { Wide::of(&roots[k].numerator, unit).size().max(unit) + NUDGE };
+                let nudge = Wide::new(Complex64::from_polar(1.0, 1.0 + k as f64), size.max(unit + NUDGE_BITS));
                 roots[k].numerator = roots[k].numerator.clone() + nudge.fixed(bits);
                 continue;
             };
             let nearest = gaps.iter().map(|gap| gap.size()).min().unwrap_or(i64::MAX);
             let alone = correction.size() < nearest.saturating_sub(ALONE_BITS) && slope != Gaussian::zero();
-            let step = if alone { divided(&value, &slope) } else { correction.fixed(bits) };
-            roots[k].numerator = roots[k].numerator.clone() - step.clone();
+            let away = if alone { divided(&value, &slope) } else { correction.fixed(bits) };
+            roots[k].numerator = roots[k].numerator.clone() - away.clone();
             let size = size_in_bits(&roots[k].numerator).max(bits) - bits;
-            settled[k] = size_in_bits(&step) <= size + SLACK_BITS;
+            // Where others are as near as the correction is short, it says nothing of the way that is left.
+            settled[k] = alone && size_in_bits(&away) <= size + SLACK_BITS;
         }
     }
-    Err(NotSettled { bits, steps: MAX_STEPS })
+    Err(NotSettled { bits, steps })
 }
 
 /// Bits of the larger part.
@@ -198,6 +217,19 @@ mod tests {
         let gap = roots[0].numerator.clone() - roots[1].numerator.clone();
         let gap = scaled(&gap, -200).norm();
         assert!((gap * 3.0 / 2.0 * 2f64.powi(60) - 1.0).abs() < 1e-12, "{gap}");
+    }
+
+    #[test]
+    fn a_pair_of_roots_a_thousand_bits_apart_is_found_from_where_the_last_attempt_ended() {
+        // (3x - 1)² = 2^-2000
+        let p = UPoly::new(vec![g(1, 0), g(-6, 0), g(9, 0)]);
+        let p = p.scaled(&Gaussian::real(Integer::ONE << 2000)) - UPoly::constant(g(1, 0));
+        let mut roots = near(&[Complex64::new(0.33, 0.01), Complex64::new(0.34, -0.02)]);
+        assert!(polish(&p, &mut roots, 640).is_err());
+        assert!((roots[0].to_complex() - 1.0 / 3.0).norm() < 1e-15);
+        polish(&p, &mut roots, 1280).expect("settles");
+        let gap = Wide::of(&(roots[0].numerator.clone() - roots[1].numerator.clone()), -1280);
+        assert_eq!(gap.size(), -1001);
     }
 
     #[test]
