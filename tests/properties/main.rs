@@ -9,8 +9,6 @@ mod laws;
 mod legs;
 mod planted;
 mod questions;
-#[path = "../random/mod.rs"]
-mod random;
 mod sturm;
 mod triads;
 mod troubled;

@@ -5,7 +5,9 @@ use std::f64::consts::PI;
 use assur::nalgebra::Vector2;
 use assur::{Assemblies, Dyad, Offset, Pose, Triad};
 
-pub use crate::random::Random;
+#[path = "../random/mod.rs"]
+mod random;
+pub use random::Random;
 
 /// The twenty triads.
 pub const TRIADS: [[&str; 3]; 20] = [
