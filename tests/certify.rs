@@ -6,8 +6,9 @@ mod random;
 
 use std::f64::consts::PI;
 
-use assur::algebra::{Integer, Rational, dyadic};
+use assur::algebra::{Integer, Interval, Rational, dyadic};
 use assur::nalgebra::Vector2;
+use assur::roots::count_on_circle;
 use assur::{Dyad, Offset, ProofRoute, RejectionReason, Status, Triad, Verdict};
 use random::Random;
 use serde_json::Value;
@@ -356,6 +357,19 @@ fn similar_platforms_of_any_ratio_are_rejected_by_name() {
             let size = rejection.theta.norm();
             let ratio = re.hypot(im);
             assert!((size - ratio).abs() < 1e-12 || (size - 1.0 / ratio).abs() < 1e-12, "{re} + {im}i: {size}");
+        }
+    }
+}
+
+#[test]
+fn the_filter_does_not_decide_what_its_intervals_leave_open() {
+    // cos phi = h has two roots below h = 1 and none above; the interval of h reaches just beyond 1.
+    let [zero, one] = [0.0, 1.0].map(Interval::point);
+    for n in 1..200 {
+        let away = 0.005 * f64::from(n);
+        for h in [1.0 - away, 1.0 + away] {
+            let open = Interval::around(h, 1.001 * away);
+            assert!(count_on_circle(&[-open, one, zero, zero], &[zero; 3]).is_none(), "{open:?}");
         }
     }
 }
