@@ -363,13 +363,17 @@ fn similar_platforms_of_any_ratio_are_rejected_by_name() {
 
 #[test]
 fn the_filter_does_not_decide_what_its_intervals_leave_open() {
-    // cos phi = h has two roots below h = 1 and none above; the interval of h reaches just beyond 1.
-    let [zero, one] = [0.0, 1.0].map(Interval::point);
-    for n in 1..200 {
-        let away = 0.005 * f64::from(n);
-        for h in [1.0 - away, 1.0 + away] {
-            let open = Interval::around(h, 1.001 * away);
-            assert!(count_on_circle(&[-open, one, zero, zero], &[zero; 3]).is_none(), "{open:?}");
+    // cos(phi - turn) = h has two roots below h = 1 and none above; the interval of h reaches just beyond 1.
+    let zero = Interval::ZERO;
+    for n in 0..360 {
+        let (sin, cos) = (f64::from(n) * PI / 180.0).sin_cos();
+        let [sin, cos] = [sin, cos].map(Interval::point);
+        for away in [1e-8, 1e-4, 0.01, 0.1, 0.5] {
+            for h in [1.0 - away, 1.0 + away] {
+                let open = Interval::around(h, 1.001 * away);
+                let count = count_on_circle(&[-open, cos, zero, zero], &[sin, zero, zero]);
+                assert!(count.is_none(), "turned by {n} degrees: {open:?}");
+            }
         }
     }
 }
