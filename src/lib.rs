@@ -87,9 +87,10 @@ pub mod solve;
 pub use certify::Verdict;
 pub use linkage::{
     Assemblies, AssemblyMode, Certificate, Claim, ComplexMode, Dyad, DyadKind, GroupName, GroupNameError, Guide,
-    Judgement, ModesRoute, NearMiss, Offset, PinnedDyad, PinnedDyadError, Pose, ProofRoute, ProvedMode, ProvedModes,
-    RealMode, RealModes, Rejection, RejectionReason, SelfMotion, Special, Status, ThetaPolynomial, Triad, TriadError,
-    TwoLinkAssemblies, TwoLinkAssembly, TwoLinkError, TwoLinkGroup, TwoLinkSpecial, triad_degree,
+    Judgement, Limit, ModesRoute, NearMiss, Offset, PinnedDyad, PinnedDyadError, Pose, ProofRoute, ProofSubject,
+    ProvedMode, ProvedModes, RealMode, RealModes, Rejection, RejectionReason, SelfMotion, Special, Status,
+    ThetaPolynomial, Triad, TriadError, TwoLinkAssemblies, TwoLinkAssembly, TwoLinkError, TwoLinkGroup, TwoLinkSpecial,
+    triad_degree,
 };
 pub use manipulator::{
     AssemblyModes, DescriptionError, FamilyError, FollowedPath, InverseSpecial, JointKind, JointsError, JointsReason,

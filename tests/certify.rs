@@ -2,31 +2,19 @@
 //!
 //! `ASSUR_TEST_SCALE` multiplies the number of random triads; 1 (the default) takes a hundredth of the full count, 100 all of it.
 
-use assur::algebra::{Integer, Rational, dyadic};
+mod random;
+
+use std::f64::consts::PI;
+
+use assur::algebra::{Integer, Interval, Rational, dyadic};
 use assur::nalgebra::Vector2;
-use assur::{Dyad, Offset, ProofRoute, Status, Triad, Verdict};
+use assur::roots::Harmonics;
+use assur::{Dyad, Offset, ProofRoute, RejectionReason, Status, Triad, Verdict};
+use random::Random;
 use serde_json::Value;
 
-/// A random number generator of 64 bits, splitmix64; seeds are printed in failures.
-struct Random(u64);
-
-impl Random {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// Between -1 and 1.
-    fn next(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    fn point(&mut self) -> Vector2<f64> {
-        Vector2::new(5.0 * self.next(), 5.0 * self.next())
-    }
+fn point(random: &mut Random) -> Vector2<f64> {
+    Vector2::new(random.between(-5.0, 5.0), random.between(-5.0, 5.0))
 }
 
 fn scale() -> usize {
@@ -158,17 +146,17 @@ fn rr(a: Vector2<f64>, b: Vector2<f64>, length: f64) -> Dyad {
 
 fn random_triad(random: &mut Random) -> Triad {
     let leg = |random: &mut Random| {
-        let (a, b) = (random.point(), random.point());
-        rr(a, b, 5.0 * (1.0 + random.next()))
+        let (a, b) = (point(random), point(random));
+        rr(a, b, random.between(0.0, 10.0))
     };
     Triad::new([leg(random), leg(random), leg(random)]).expect("valid")
 }
 
 /// A planted pose, so that there is at least one mode.
 fn planted_triad(random: &mut Random) -> Triad {
-    let (x, turn) = (random.point(), std::f64::consts::PI * random.next());
+    let (x, turn) = (point(random), random.between(-PI, PI));
     let leg = |random: &mut Random| {
-        let (a, b) = (random.point(), random.point());
+        let (a, b) = (point(random), point(random));
         let joint = x + Vector2::new(turn.cos() * b.x - turn.sin() * b.y, turn.sin() * b.x + turn.cos() * b.y);
         rr(a, b, (joint - a).norm())
     };
@@ -177,14 +165,14 @@ fn planted_triad(random: &mut Random) -> Triad {
 
 /// A planted pose in which the legs' lines nearly meet in a point: two modes `gap` apart, in order of magnitude, or nearly.
 fn nearly_singular_triad(random: &mut Random, gap: f64) -> Triad {
-    let (x, turn, pole) = (random.point(), std::f64::consts::PI * random.next(), random.point());
+    let (x, turn, pole) = (point(random), random.between(-PI, PI), point(random));
     let leg = |random: &mut Random, miss: f64| {
-        let b = random.point();
+        let b = point(random);
         let joint = x + Vector2::new(turn.cos() * b.x - turn.sin() * b.y, turn.sin() * b.x + turn.cos() * b.y);
         // The base pivot on the line through the pole and the joint, but for a turn by `miss`.
         let along = pole - joint;
         let across = Vector2::new(-along.y, along.x);
-        let a = joint + (along + miss * across) * (1.5 + random.next());
+        let a = joint + (along + miss * across) * random.between(0.5, 2.5);
         rr(a, b, (joint - a).norm())
     };
     let legs = [leg(random, 0.0), leg(random, 0.0), leg(random, gap)];
@@ -203,7 +191,7 @@ fn check_against_sturm(triad: &Triad, what: &str) -> ProofRoute {
 
 #[test]
 fn random_triads_are_counted_as_by_sturm() {
-    let mut random = Random(4);
+    let mut random = Random::new(4);
     let count = 1000 * scale();
     let mut filtered = 0;
     for n in 0..count {
@@ -217,11 +205,11 @@ fn random_triads_are_counted_as_by_sturm() {
 
 #[test]
 fn nearly_singular_triads_are_counted_as_by_sturm() {
-    let mut random = Random(14);
+    let mut random = Random::new(14);
     let count = 200 * scale();
     let mut filtered = 0;
     for n in 0..count {
-        let gap = 10f64.powf(-9.0 + 5.0 * random.next());
+        let gap = 10f64.powf(random.between(-14.0, -4.0));
         let triad = nearly_singular_triad(&mut random, gap);
         filtered += usize::from(
             check_against_sturm(&triad, &format!("triad {n} of seed 14, gap {gap:e}")) == ProofRoute::Filter,
@@ -348,4 +336,44 @@ fn decimals_that_only_look_similar_are_reported_with_their_distance() {
     let near = answer.near.iter().find(|near| near.special.name() == "similar_platforms").expect("a near miss");
     assert!(near.distance > 0.0 && near.distance < 1e-15, "{near:?}");
     assert!(answer.certificate.expect("asked for").complete);
+}
+
+#[test]
+fn similar_platforms_of_any_ratio_are_rejected_by_name() {
+    let leg = |a: [f64; 2], b: [f64; 2], l| rr(a.into(), b.into(), l);
+    // a = k b with k = 1/2, 2i, 1 + i, and with |k| = 1 but unequal lengths.
+    for [re, im] in [[0.5, 0.0], [0.0, 2.0], [1.0, 1.0], [0.0, 1.0], [1.0, 0.0]] {
+        let of = |b: [f64; 2]| [re * b[0] - im * b[1], re * b[1] + im * b[0]];
+        let platform = [[0.0, 0.0], [4.0, 1.0], [1.0, 3.0]];
+        let legs: [Dyad; 3] = std::array::from_fn(|i| leg(of(platform[i]), platform[i], [3.0, 3.25, 3.5][i]));
+        let answer = Triad::new(legs).expect("valid").certify();
+        assert!(answer.special.iter().any(|s| s.name() == "similar_platforms"), "{re} + {im}i: {:?}", answer.special);
+        assert_eq!(answer.account.rejected, 2, "{re} + {im}i: {:?}", answer.account);
+        assert_eq!(answer.account.real + answer.account.complex, 4, "{re} + {im}i: {:?}", answer.account);
+        assert!(answer.certificate.expect("asked for").complete);
+        for rejection in &answer.rejections {
+            assert_eq!(rejection.reason, RejectionReason::SimilarPlatforms, "{re} + {im}i");
+            // theta = k and 1/conj(k).
+            let size = rejection.theta.norm();
+            let ratio = re.hypot(im);
+            assert!((size - ratio).abs() < 1e-12 || (size - 1.0 / ratio).abs() < 1e-12, "{re} + {im}i: {size}");
+        }
+    }
+}
+
+#[test]
+fn the_filter_does_not_decide_what_its_intervals_leave_open() {
+    // cos(phi - turn) = h has two roots below h = 1 and none above; the interval of h reaches just beyond 1.
+    let zero = Interval::ZERO;
+    for n in 0..360 {
+        let (sin, cos) = (f64::from(n) * PI / 180.0).sin_cos();
+        let [sin, cos] = [sin, cos].map(Interval::point);
+        for away in [1e-8, 1e-4, 0.01, 0.1, 0.5] {
+            for h in [1.0 - away, 1.0 + away] {
+                let open = Interval::around(h, 1.001 * away);
+                let count = Harmonics::from_powers(&[-open, cos, zero, zero], &[sin, zero, zero]).real_roots();
+                assert!(count.is_none(), "turned by {n} degrees: {open:?}");
+            }
+        }
+    }
 }

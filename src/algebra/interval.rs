@@ -498,6 +498,22 @@ mod tests {
     }
 
     #[test]
+    fn quotients_need_both_of_their_roundings() {
+        // Here the reciprocal's rounding and the product's add up to more than one step outward.
+        for [a, b] in [
+            [1.5483388900756836, 1.86029052734375],
+            [1.3311376571655273, 1.612452507019043],
+            [1.4608526229858398, 1.5702810287475586],
+            [1.715108871459961, 1.9543075561523438],
+        ] {
+            for [a, b] in [[a, b], [-a, b], [a, -b], [-a, -b]] {
+                let quotient = Interval::point(a).checked_div(Interval::point(b)).expect("not zero");
+                assert!(holds(quotient, &(rational(a) / rational(b))), "{a} / {b}: {quotient:?}");
+            }
+        }
+    }
+
+    #[test]
     fn nothing_is_silently_empty_or_nan() {
         assert!(Interval::new(2.0, 1.0).is_none() && Interval::new(f64::NAN, 1.0).is_none());
         assert!(Interval::new(f64::INFINITY, f64::INFINITY).is_none());

@@ -25,6 +25,7 @@ pub use interval::Interval;
 pub use lanes::Lanes;
 pub use monomial::Monomial;
 pub use poly::Poly;
+pub(crate) use rational::scale_by_power_of_two;
 pub use rational::{Integer, Rational, dyadic, integer_to_f64_scaled, nearest_f64, ratio_to_f64};
 pub use ring::{Domain, Ring};
 pub use short_trig::{SHORT_ORDER, ShortTrig};

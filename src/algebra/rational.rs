@@ -61,7 +61,7 @@ pub fn ratio_to_f64(numerator: &Integer, denominator: &Integer, exponent: i64) -
 }
 
 /// `x·2^e` without an intermediate overflow.
-fn scale_by_power_of_two(x: f64, e: i64) -> f64 {
+pub(crate) fn scale_by_power_of_two(x: f64, e: i64) -> f64 {
     // Two factors, since 2^e alone may leave the range of f64 where the product does not.
     let half = (e / 2).clamp(-1100, 1100) as i32;
     let rest = (e - i64::from(half)).clamp(-1100, 1100) as i32;

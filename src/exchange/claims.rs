@@ -112,8 +112,11 @@ pub struct ClaimReport {
     pub pose: [f64; 3],
     /// `proven`, `refuted` or `undecided`.
     pub verdict: &'static str,
-    /// The nearest mode, from 1, in the order of `assur forward`.
+    /// The pose it stands for, or else the nearest, from 1: poses in the order of `assur forward`, each once however many ways free legs stand in it.
     pub nearest: Option<usize>,
+    /// The claim, from 1, that already stands for that pose.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub repeats: Option<usize>,
     /// How far it is; `null` where there is no mode.
     pub distance: Option<f64>,
 }
@@ -121,7 +124,7 @@ pub struct ClaimReport {
 /// A mode that a report lacks.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MissingReport {
-    /// Its number, from 1, in the order of `assur forward`.
+    /// Its number, from 1, as in [`ClaimReport::nearest`].
     pub mode: usize,
     /// `[x, y, phi]`.
     pub pose: [f64; 3],
@@ -137,6 +140,7 @@ impl VerifyReport {
             pose: [claim.pose.x, claim.pose.y, claim.pose.phi],
             verdict: proof(claim.verdict),
             nearest: claim.nearest.map(|mode| mode + 1),
+            repeats: claim.repeats.map(|claim| claim + 1),
             distance: claim.nearest.map(|_| claim.distance),
         });
         let missing = judgement.missing.iter().map(|&mode| {

@@ -39,5 +39,5 @@ pub use locus_report::{SingularitiesReport, TracedModes, map_csv};
 pub use model::{AngleUnit, ModelFile};
 pub use motion_report::{InverseReport, Motion, VelocityReport};
 pub use path_file::{PathFileError, PathReport, parse_path, read_path};
-pub use report::{CertificateReport, ForwardReport, ModeReport};
+pub use report::{CertificateReport, ForwardReport, ModeReport, SubjectReport};
 pub use triad_file::{DyadEntry, TriadFile, read_triad};

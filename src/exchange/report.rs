@@ -3,9 +3,9 @@
 use num_complex::Complex64;
 use serde::Serialize;
 
-use super::triad_file::TriadFile;
+use super::triad_file::{DyadEntry, TriadFile};
 use crate::certify::Verdict;
-use crate::linkage::{Assemblies, AssemblyMode, Certificate, Status, Triad};
+use crate::linkage::{Assemblies, AssemblyMode, Certificate, ProofSubject, Status, Triad};
 use crate::manipulator::{AssemblyModes, ManipulatorMode, Violation};
 use crate::solve::Account;
 
@@ -17,6 +17,9 @@ pub struct ForwardReport {
     schema: &'static str,
     /// `complete`, `self_motion` or `undecided`.
     pub status: &'static str,
+    /// Which limit was reached, where something is undecided.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    limit: Option<LimitReport>,
     /// The actuator values; empty for a triad.
     pub inputs: Vec<f64>,
     /// The name of the triad: `RR-RR-RR`.
@@ -26,6 +29,7 @@ pub struct ForwardReport {
     /// The assembly modes.
     pub modes: Vec<ModeReport>,
     complex: Vec<ComplexReport>,
+    complex_out_of_range: usize,
     account: AccountReport,
     rejections: Vec<RejectionReport>,
     self_motions: Vec<SelfMotionReport>,
@@ -38,6 +42,14 @@ pub struct ForwardReport {
     polynomial: Option<PolynomialReport>,
     /// The length that residuals are measured against.
     pub size: f64,
+}
+
+/// A limit that was reached.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct LimitReport {
+    /// `size` or `exponent_range`.
+    name: &'static str,
+    text: String,
 }
 
 /// An assembly mode as reports write it.
@@ -80,13 +92,45 @@ pub struct CertificateReport {
     pub indistinct: usize,
     /// Whether an RP leg's `d·|v|` was rounded for the count.
     pub rounded_offset: bool,
-    /// What the proof is about.
-    pub about: &'static str,
+    /// In how many ways free legs can stand in each pose, at most; which of them they do is measured, not proved.
+    pub free_ways: usize,
+    /// What the proof is about, in words.
+    pub about: String,
+    /// What the proof is about, in numbers.
+    pub subject: SubjectReport,
 }
 
-/// What every proof is about.
-const ABOUT: &str =
-    "the locked triad whose numbers are exactly the f64s printed; sines and cosines were rounded once, on locking";
+/// The group a proof is about: the legs of a triad, a pin and a leg, or a pose.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SubjectReport {
+    /// A triad, as a problem file.
+    Triad(TriadFile),
+    /// A platform pinned in a point.
+    Pinned {
+        /// The base point.
+        a: [f64; 2],
+        /// The platform point held there.
+        b: [f64; 2],
+        /// The leg.
+        leg: DyadEntry,
+    },
+    /// `[x, y, phi]`.
+    Placed([f64; 3]),
+}
+
+impl From<&ProofSubject> for SubjectReport {
+    fn from(subject: &ProofSubject) -> Self {
+        match subject {
+            ProofSubject::Triad(triad) => Self::Triad(TriadFile::from(triad)),
+            ProofSubject::Pinned(pinned) => {
+                let (a, b) = pinned.pin();
+                Self::Pinned { a: a.into(), b: b.into(), leg: DyadEntry::from(pinned.leg()) }
+            }
+            ProofSubject::Placed(pose) => Self::Placed([pose.x, pose.y, pose.phi]),
+        }
+    }
+}
 
 impl From<&Certificate> for CertificateReport {
     fn from(certificate: &Certificate) -> Self {
@@ -95,7 +139,9 @@ impl From<&Certificate> for CertificateReport {
             complete: certificate.complete,
             indistinct: certificate.indistinct,
             rounded_offset: certificate.rounded_offset,
-            about: ABOUT,
+            free_ways: certificate.free_ways,
+            about: certificate.subject.to_string(),
+            subject: SubjectReport::from(&certificate.subject),
         }
     }
 }
@@ -178,6 +224,7 @@ impl ForwardReport {
                 Status::SelfMotion => "self_motion",
                 Status::Undecided => "undecided",
             },
+            limit: answer.limit.map(|limit| LimitReport { name: limit.name(), text: limit.to_string() }),
             inputs: Vec::new(),
             group: triad.map(Triad::name),
             triad: triad.map(TriadFile::from),
@@ -192,6 +239,7 @@ impl ForwardReport {
                     multiplicity: mode.multiplicity,
                 })
                 .collect(),
+            complex_out_of_range: answer.complex_out_of_range,
             account: AccountReport { degree, real, complex, at_infinity, rejected, self_motion, undecided },
             rejections: answer
                 .rejections

@@ -16,7 +16,7 @@ use nalgebra::Vector2;
 use num_complex::Complex64;
 
 use super::assemblies::{
-    Assemblies, AssemblyMode, ComplexMode, Rejection, SelfMotion, Special, Status, ThetaPolynomial,
+    Assemblies, AssemblyMode, ComplexMode, Limit, Rejection, SelfMotion, Special, Status, ThetaPolynomial,
 };
 use super::constraint::reference_consistency;
 use super::fibre::{Fibre, Part, parts, parts_alike};
@@ -140,8 +140,10 @@ impl<'a> Gathering<'a> {
             b0,
             out: Assemblies {
                 status: Status::Complete,
+                limit: None,
                 modes: Vec::new(),
                 complex: Vec::new(),
+                complex_out_of_range: 0,
                 account: Account { degree, ..Account::default() },
                 rejections: Vec::new(),
                 self_motions: Vec::new(),
@@ -165,7 +167,7 @@ impl<'a> Gathering<'a> {
             self.out.account.degree = 0;
             match motions(&rows) {
                 Ok(motions) => motions.into_iter().for_each(|m| self.note_motion(m)),
-                Err(_) => self.out.status = Status::Undecided,
+                Err(_) => self.out.give_up(Limit::Size),
             }
             return;
         }
@@ -206,7 +208,7 @@ impl<'a> Gathering<'a> {
             }
             Err(NotLocated::NotSettled(_) | NotLocated::Ambiguous { .. }) => {
                 self.out.account.undecided += part.in_chart.degree().unwrap_or(0) * part.multiplicity;
-                self.out.status = Status::Undecided;
+                self.out.give_up(Limit::Size);
             }
         }
     }
@@ -294,19 +296,16 @@ impl<'a> Gathering<'a> {
         }
     }
 
-    /// Books one solution: a mode, a complex one, or, where it fails its measurement, undecided.
+    /// Books one solution: a mode, which is undecided where it fails its measurement, or a complex one.
     fn take_solution(&mut self, solution: Solution, multiplicity: usize) {
         if multiplicity == 0 {
             return;
         }
-        let sound = if solution.real {
-            self.take_mode(solution, multiplicity)
-        } else {
-            self.take_complex(solution, multiplicity)
-        };
-        if !sound {
+        if !solution.real {
+            self.take_complex(solution, multiplicity);
+        } else if !self.take_mode(solution, multiplicity) {
             self.out.account.undecided += multiplicity;
-            self.out.status = Status::Undecided;
+            self.out.give_up(Limit::ExponentRange);
         }
     }
 
@@ -314,7 +313,8 @@ impl<'a> Gathering<'a> {
         let rotation = solution.theta / solution.theta.norm();
         let at = Placement { rotation, u: solution.u[0] };
         let scale = if self.size > 0.0 { self.size } else { 1.0 };
-        let residual = residual(self.legs, at) / scale;
+        // A platform far outside the group cannot be placed better than its distance is rounded.
+        let residual = residual(self.legs, at) / scale.max(at.u.norm());
         let phi = principal(rotation.arg());
         // The pose's own rounded angle turns the reference point, so that the rounding of phi does not swing the platform about a
         // far origin.
@@ -343,16 +343,18 @@ impl<'a> Gathering<'a> {
         sound
     }
 
-    fn take_complex(&mut self, solution: Solution, multiplicity: usize) -> bool {
+    /// That there is such a solution is exact; its numbers are listed where they can be.
+    fn take_complex(&mut self, solution: Solution, multiplicity: usize) {
         let Solution { theta, u: [u, v], .. } = solution;
         let z = self.length(u) + self.a0 - theta * self.b0;
         let w = self.length(v) + self.a0.conj() - theta.inv() * self.b0.conj();
-        let sound = z.is_finite() && w.is_finite() && complex_residual(self.legs, theta, u, v) <= CLOSURE_GUARD;
-        if sound {
+        self.out.account.complex += multiplicity;
+        let finite = [theta, z, w].iter().all(|number| number.is_finite());
+        if finite && complex_residual(self.legs, theta, u, v) <= CLOSURE_GUARD {
             self.out.complex.push(ComplexMode { theta, z, w, multiplicity });
-            self.out.account.complex += multiplicity;
+        } else {
+            self.out.complex_out_of_range += multiplicity;
         }
-        sound
     }
 
     /// A length of the local legs in the unit of the model.
@@ -378,6 +380,16 @@ impl<'a> Gathering<'a> {
         out.special.dedup();
         assert!(out.account.adds_up(), "every root is booked once: {:?}", out.account);
         out
+    }
+}
+
+impl Assemblies {
+    /// Ends the answer as undecided. A lack of digits is named before a lack of exponents.
+    pub(super) fn give_up(&mut self, limit: Limit) {
+        self.status = Status::Undecided;
+        if self.limit != Some(Limit::Size) {
+            self.limit = Some(limit);
+        }
     }
 }
 

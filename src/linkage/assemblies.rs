@@ -8,6 +8,7 @@ use super::certificate::Certificate;
 use super::group::Pose;
 use super::special::NearMiss;
 use crate::certify::Verdict;
+use crate::roots::MAX_BITS;
 use crate::solve::Account;
 
 /// How an answer ended.
@@ -17,8 +18,29 @@ pub enum Status {
     Complete,
     /// A whole curve of poses exists; isolated modes are listed beside it.
     SelfMotion,
-    /// Something could not be decided within the stated limits; the account says how much.
+    /// Something could not be decided within the stated limits; the account says how much, and [`Limit`] which.
     Undecided,
+}
+
+/// Which limit ended an answer as undecided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum Limit {
+    /// Two roots, or a coordinate and zero, are not told apart within [`MAX_BITS`] bits.
+    #[error("limit of size: {MAX_BITS} bits do not tell apart what has to be")]
+    Size,
+    /// A mode's coordinates leave the range of `f64`.
+    #[error("limit of exponents: a coordinate leaves the range of f64")]
+    ExponentRange,
+}
+
+impl Limit {
+    /// The name that reports use: `size`, `exponent_range`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Size => "size",
+            Self::ExponentRange => "exponent_range",
+        }
+    }
 }
 
 /// One way to put a group together.
@@ -28,7 +50,8 @@ pub struct AssemblyMode {
     pub pose: Pose,
     /// How many modes meet here: 1 for an ordinary mode, more where the mechanism is singular.
     pub multiplicity: usize,
-    /// Largest closure error of the assembled group over its largest length, measured on the geometry.
+    /// Largest closure error of the assembled group over its largest length, measured on the geometry; where the platform stands further away than that, over
+    /// its distance.
     pub residual: f64,
     /// Sign and size of det A: the determinant of the three leg normals as wrenches, scaled to unit forces and the group's size.
     pub det_a: f64,
@@ -58,8 +81,9 @@ pub struct ComplexMode {
 /// Why a root of the eliminant carries no pose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum RejectionReason {
-    /// Every leg row has lost its unknowns and at least one is contradictory: similar or congruent platforms.
-    #[error("no finite pose: the platforms are similar in this orientation and the lengths do not fit")]
+    /// `theta` is the complex ratio of similar platforms, or its partner: every leg row has lost an unknown, both where they are congruent, and the lengths
+    /// do not fit.
+    #[error("no finite pose: theta is the ratio of similar platforms, and the lengths do not fit")]
     SimilarPlatforms,
     /// The two linear rows are parallel and contradict each other.
     #[error("no finite pose: the leg conditions are parallel in this orientation and contradict each other")]
@@ -146,10 +170,14 @@ pub struct ThetaPolynomial {
 pub struct Assemblies {
     /// How the answer ended.
     pub status: Status,
+    /// Which limit was reached, where something is undecided.
+    pub limit: Option<Limit>,
     /// The assembly modes, sorted by phi, then x, then y (equal within 1e-9 counts as equal).
     pub modes: Vec<AssemblyMode>,
     /// The solutions that are not real, partners included.
     pub complex: Vec<ComplexMode>,
+    /// How many non-real solutions the account counts that are not listed, since their numbers leave the range of `f64`.
+    pub complex_out_of_range: usize,
     /// Where every root of the eliminant went.
     pub account: Account,
     /// The roots that carry no pose, each with its reason.

@@ -253,3 +253,30 @@ pub(super) fn given_boxes(
     };
     points.iter().map(|point| frame.pose(point, rotation)).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rotation_holds_its_root_exactly_and_every_one_between_the_ends() {
+        let third = Rational::ONE / Rational::from(4);
+        let near = third.clone() + Rational::ONE / Rational::from(Integer::ONE << 20);
+        for (low, high) in [(third.clone(), third.clone()), (third.clone(), near.clone())] {
+            let chart = Chart::without_infinity(&Trig::one());
+            assert_eq!(chart.tau(), 0);
+            let root = Isolation { low: low.clone(), high: high.clone() };
+            let rotation = ScaledRotation::of_root(&root, chart, 192);
+            for t in [low, high] {
+                let w = Rational::ONE + t.clone() * t.clone();
+                let scale = Rational::from(Integer::ONE << 192);
+                let (c, s) = ((Rational::ONE - t.clone() * t.clone()) / w.clone(), t * Rational::from(2) / w);
+                for (held, x) in [(&rotation.cosine, c * scale.clone()), (&rotation.sine, s * scale)] {
+                    let (numerator, denominator) = x.into_parts();
+                    let scaled = held.clone() * Bracket::point(Integer::from(denominator));
+                    assert!((scaled - Bracket::point(numerator)).contains_zero());
+                }
+            }
+        }
+    }
+}

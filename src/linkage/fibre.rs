@@ -126,6 +126,8 @@ fn split_by_fibre(factor: UPoly<Integer>, chart: Chart, rows: &Rows<Trig<Integer
             let (free, contradictory) = split(vanishing, &constants);
             let mismatch = second.mismatch(third);
             let (line, separate) = split(line, &[mismatch.re, mismatch.im]);
+            // Normals k_i = theta beta_i - alpha_i that lose one of their isotropic parts together: theta is the ratio of similar platforms.
+            let (similar, separate) = split(separate, &[second.g.norm_sqr(), third.g.norm_sqr()]);
             let (isotropic, line) = split(line, &[second.g.norm_sqr(), third.g.norm_sqr()]);
             let (through_centre, isotropic) = split(isotropic, &constants);
             let discriminants = [second, third]
@@ -136,6 +138,7 @@ fn split_by_fibre(factor: UPoly<Integer>, chart: Chart, rows: &Rows<Trig<Integer
                 (crossing, Fibre::Point),
                 (free, if centre { Fibre::Centre } else { Fibre::Curve }),
                 (contradictory, Fibre::Empty(RejectionReason::SimilarPlatforms)),
+                (similar, Fibre::Empty(RejectionReason::SimilarPlatforms)),
                 (separate, Fibre::Empty(RejectionReason::ParallelRows)),
                 (through_centre, if centre { Fibre::Curve } else { Fibre::Empty(RejectionReason::IsotropicLine) }),
                 (isotropic, Fibre::IsotropicPoint),

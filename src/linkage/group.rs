@@ -109,7 +109,7 @@ impl Dyad {
 /// A platform held by three dyads.
 ///
 /// Can only be had validated: every number finite, lengths not negative, directions not zero.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Triad {
     legs: [Dyad; 3],
 }

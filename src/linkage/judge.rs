@@ -11,8 +11,10 @@ pub struct Claim {
     pub pose: Pose,
     /// `Proven`: an assembly mode lies within the tolerance. `Refuted`: none does. `Undecided`: a self-motion passes somewhere, or the group itself is undecided.
     pub verdict: Verdict,
-    /// The nearest assembly mode, by its place in the answer.
+    /// The assembly mode it stands for, or else the nearest, by its place in the answer. Of several claims near one mode the nearest stands for it.
     pub nearest: Option<usize>,
+    /// The claim, by its place, that already stands for the nearest mode.
+    pub repeats: Option<usize>,
     /// How far that is: the larger of the angle in radians and the displacement over the group's size.
     pub distance: f64,
 }
@@ -22,7 +24,7 @@ pub struct Claim {
 pub struct Judgement {
     /// The claims, in their order.
     pub claims: Vec<Claim>,
-    /// Assembly modes that no claim is near, by their places in the answer.
+    /// Assembly modes that no claim stands for, by their places in the answer.
     pub missing: Vec<usize>,
 }
 
@@ -51,25 +53,34 @@ impl Assemblies {
     /// ```
     pub fn judge(&self, claims: &[Pose], tolerance: f64) -> Judgement {
         let complete = self.certificate.is_some_and(|c| c.complete) && self.status == Status::Complete;
-        let claims: Vec<Claim> = claims
-            .iter()
-            .map(|&pose| {
-                let nearest =
-                    (0..self.modes.len()).min_by(|&i, &j| self.distance(i, &pose).total_cmp(&self.distance(j, &pose)));
-                let distance = nearest.map_or(f64::INFINITY, |i| self.distance(i, &pose));
-                let verdict = match nearest {
-                    Some(i) if distance <= tolerance => match self.modes[i].proof {
-                        Verdict::Proven => Verdict::Proven,
-                        _ => Verdict::Undecided,
-                    },
-                    _ if complete => Verdict::Refuted,
-                    _ => Verdict::Undecided,
-                };
-                Claim { pose, verdict, nearest, distance }
-            })
+        // Each mode to the claim nearest to it, nearest pairs first: of two modes close together, neither is claimed twice.
+        let mut pairs: Vec<(f64, usize, usize)> = (0..claims.len())
+            .flat_map(|claim| (0..self.modes.len()).map(move |mode| (claim, mode)))
+            .map(|(claim, mode)| (self.distance(mode, &claims[claim]), claim, mode))
             .collect();
-        let claimed = |i: usize| claims.iter().any(|c| self.distance(i, &c.pose) <= tolerance);
-        let missing = (0..self.modes.len()).filter(|&i| !claimed(i)).collect();
+        pairs.sort_by(|p, q| p.0.total_cmp(&q.0));
+        let (mut mode_of, mut claim_of) = (vec![None; claims.len()], vec![None; self.modes.len()]);
+        for &(_, claim, mode) in pairs.iter().take_while(|pair| pair.0 <= tolerance) {
+            if mode_of[claim].is_none() && claim_of[mode].is_none() {
+                (mode_of[claim], claim_of[mode]) = (Some(mode), Some(claim));
+            }
+        }
+        let judged = |(number, &pose): (usize, &Pose)| {
+            let nearest = mode_of[number].or_else(|| pairs.iter().find(|pair| pair.1 == number).map(|pair| pair.2));
+            let distance = nearest.map_or(f64::INFINITY, |mode| self.distance(mode, &pose));
+            let verdict = match nearest {
+                Some(mode) if distance <= tolerance => match self.modes[mode].proof {
+                    Verdict::Proven => Verdict::Proven,
+                    _ => Verdict::Undecided,
+                },
+                _ if complete => Verdict::Refuted,
+                _ => Verdict::Undecided,
+            };
+            let taken = nearest.filter(|_| distance <= tolerance).and_then(|mode| claim_of[mode]);
+            Claim { pose, verdict, nearest, repeats: taken.filter(|&claim| claim != number), distance }
+        };
+        let claims = claims.iter().enumerate().map(judged).collect();
+        let missing = (0..self.modes.len()).filter(|&mode| claim_of[mode].is_none()).collect();
         Judgement { claims, missing }
     }
 
@@ -83,5 +94,30 @@ impl Assemblies {
         let angle = away(2, pose.phi - turns.round() * std::f64::consts::TAU);
         let size = if self.size > 0.0 { self.size } else { 1.0 };
         angle.max(away(0, pose.x).hypot(away(1, pose.y)) / size)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::linkage::{Dyad, Triad};
+
+    #[test]
+    fn two_claims_never_stand_for_one_mode_and_repetitions_are_named() {
+        let leg = |a: [f64; 2], b: [f64; 2], length| Dyad::RR { a: a.into(), b: b.into(), length };
+        let legs = [
+            leg([0.0, 0.0], [0.0, 0.0], 1.0),
+            leg([4.0, 0.0], [2.0, 0.0], 1.0 + 1e-15),
+            leg([2.0, 3.0], [1.0, 1.0], 2.0),
+        ];
+        let answer = Triad::new(legs).expect("valid").certify();
+        let [p, q] = [0, 1].map(|mode: usize| answer.modes[mode].pose);
+        assert_eq!(answer.modes.len(), 2);
+        assert!((p.phi - q.phi).abs() < 1e-6, "{p:?} {q:?}");
+        let both = answer.judge(&[q, p], 1e-3);
+        assert_eq!(both.claims.iter().map(|claim| claim.nearest).collect::<Vec<_>>(), [Some(1), Some(0)]);
+        assert_eq!(both.missing, Vec::<usize>::new());
+        let thrice = answer.judge(&[q, p, p], 1e-3);
+        assert_eq!(thrice.claims.iter().map(|claim| claim.repeats).collect::<Vec<_>>(), [None, None, Some(1)]);
+        assert_eq!(answer.judge(&[p], 1e-3).missing, [1]);
     }
 }

@@ -28,9 +28,10 @@ mod vanishing;
 mod verify;
 
 pub use assemblies::{
-    Assemblies, AssemblyMode, ComplexMode, Rejection, RejectionReason, SelfMotion, Special, Status, ThetaPolynomial,
+    Assemblies, AssemblyMode, ComplexMode, Limit, Rejection, RejectionReason, SelfMotion, Special, Status,
+    ThetaPolynomial,
 };
-pub use certificate::Certificate;
+pub use certificate::{Certificate, ProofSubject};
 pub use constraint::{RotationNumbers, constraint_system, sylvester_plan};
 pub use dyad::{Guide, TwoLinkAssemblies, TwoLinkAssembly, TwoLinkError, TwoLinkGroup, TwoLinkSpecial};
 pub use group::{Dyad, Offset, Pose, Triad, TriadError, triad_degree};

@@ -23,7 +23,7 @@ use super::group::{Dyad, Triad, TriadError};
 /// assert!((answer.modes[1].pose.phi.cos() - 0.6).abs() < 1e-15);
 /// # Ok::<(), assur::PinnedDyadError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PinnedDyad {
     a: Vector2<f64>,
     b: Vector2<f64>,

@@ -96,7 +96,7 @@ impl ThetaRows {
         let theta = root.root.to_complex();
         let solution = |u: [Complex64; 2], real, twin| Solution { theta, u, real, twin };
         let values = || -> Vec<RowValues> { self.rows.iter().map(|row| row.at(&root.root)).collect() };
-        let bits = root.root.bits as i64;
+        let bits = root.root.significant_bits() as i64;
         match fibre {
             Fibre::Empty(_) | Fibre::Curve => Some(Vec::new()),
             Fibre::Centre => Some(vec![solution([Complex64::ZERO; 2], root.on_circle, false)]),
@@ -189,7 +189,7 @@ fn line_and_circle(
         return Some(LineAndCircle { at: points(Complex64::ZERO, Complex64::ZERO), real: true });
     }
     let loss = magnitude(&cc).max(magnitude(&ab)) - magnitude(&discriminant);
-    if loss > root.bits as i64 - KEPT_BITS {
+    if loss > root.significant_bits() as i64 - KEPT_BITS {
         return None;
     }
     // Rows carry a factor theta, squared in the discriminant; without it a real line has a real discriminant.

@@ -7,7 +7,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::assemblies::{Assemblies, Status};
+use super::assemblies::{Assemblies, Limit, Status};
+use super::certificate::ProofSubject;
 use super::exact_box::{Frame, ScaledRotation, boxes, given_boxes};
 use super::fibre::{Fibre, Part, parts, parts_alike};
 use super::given_orientation::{Given, assemble_two, exact_rotation, same_orientation};
@@ -196,7 +197,7 @@ impl Triad {
     /// ```
     pub fn certify(&self) -> Assemblies {
         let mut answer = self.assemble();
-        answer.attach(&self.prove_exactly(), has_rounded_offset(self.legs()));
+        answer.attach(&self.prove_exactly(), ProofSubject::Triad(*self), has_rounded_offset(self.legs()));
         answer
     }
 }
@@ -223,7 +224,8 @@ impl PinnedDyad {
             }
         };
         let mut answer = self.assemble();
-        answer.attach(&ProvedModes::new(found, ProofRoute::Exact, status), has_rounded_offset(&legs));
+        let proved = ProvedModes::new(found, ProofRoute::Exact, status);
+        answer.attach(&proved, ProofSubject::Pinned(*self), has_rounded_offset(&legs));
         answer
     }
 }
@@ -304,7 +306,7 @@ impl ProvedModes {
 
 impl Assemblies {
     /// Gives each mode the box nearest to it, and the whole its certificate.
-    fn attach(&mut self, proved: &ProvedModes, rounded_offset: bool) {
+    fn attach(&mut self, proved: &ProvedModes, subject: ProofSubject, rounded_offset: bool) {
         let matching = proved.modes.len() == self.modes.len() && proved.status != Status::Undecided;
         let mut free: Vec<&ProvedMode> = proved.modes.iter().collect();
         let size = self.size;
@@ -327,9 +329,10 @@ impl Assemblies {
                 mode.proof = Verdict::Proven;
             }
         }
-        if !matching {
-            self.status = Status::Undecided;
+        // Where a mode is out of range the answer says so already.
+        if proved.status == Status::Undecided || (!matching && self.limit.is_none()) {
+            self.give_up(Limit::Size);
         }
-        self.conclude(proved.indistinct, rounded_offset);
+        self.conclude(subject, proved.indistinct, rounded_offset);
     }
 }

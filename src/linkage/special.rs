@@ -1,10 +1,12 @@
 //! What is special about a triad's shape? Decided exactly on its numbers.
 
+use dashu_int::ops::BitTest;
+
 use super::assemblies::Special;
 use super::group::Dyad;
 use super::numbers::TriadNumbers;
 use super::triad::LegNumbers;
-use crate::algebra::{Domain, Gaussian, Integer, ratio_to_f64};
+use crate::algebra::{Domain, Gaussian, Integer, ratio_to_f64, scale_by_power_of_two};
 
 /// The special shapes of a triad, in no order, each once.
 pub(super) fn special_shapes(legs: &[Dyad], numbers: &TriadNumbers) -> Vec<Special> {
@@ -80,12 +82,24 @@ pub(super) fn special_shapes(legs: &[Dyad], numbers: &TriadNumbers) -> Vec<Speci
 pub struct NearMiss {
     /// The shape missed.
     pub special: Special,
-    /// By how much: relative to the lengths compared, or the sine of an angle. Never 0.
+    /// By how much: relative to the lengths compared, or the sine of an angle. Never 0; below 2.2e-308 the digits of `f64` run out, and 5e-324 stands for anything
+    /// smaller.
     pub distance: f64,
 }
 
 /// Closer than this, a shape is worth a word. Far above what rounding decimals to `f64` does, far below any tolerance of manufacture.
 const NEAR: f64 = 1e-12;
+
+/// The square root of a ratio of integers that are not negative, the second not zero; not 0 unless the first is, though it be too small for `f64`.
+fn root_of_ratio(numerator: &Integer, denominator: &Integer) -> f64 {
+    if numerator.is_zero() {
+        return 0.0;
+    }
+    let size = |n: &Integer| n.bit_len() as i64;
+    // Half an even exponent, since the ratio itself may leave the range of f64 where its root does not.
+    let half = (size(numerator) - size(denominator)).div_euclid(2);
+    scale_by_power_of_two(ratio_to_f64(numerator, denominator, -2 * half).sqrt(), half).max(f64::from_bits(1))
+}
 
 /// The special shapes nearly had.
 pub(super) fn near_misses(numbers: &TriadNumbers) -> Vec<NearMiss> {
@@ -94,7 +108,7 @@ pub(super) fn near_misses(numbers: &TriadNumbers) -> Vec<NearMiss> {
         if miss_squared.is_zero() || scale_squared.is_zero() {
             return;
         }
-        let distance = ratio_to_f64(&miss_squared, &scale_squared, 0).sqrt();
+        let distance = root_of_ratio(&miss_squared, &scale_squared);
         if distance < NEAR {
             match out.iter_mut().find(|near| near.special == special) {
                 Some(near) => near.distance = near.distance.min(distance),
@@ -137,7 +151,7 @@ pub(super) fn near_misses(numbers: &TriadNumbers) -> Vec<NearMiss> {
         let (a, b) = ([less(q.0, p.0), less(r.0, p.0)], [less(q.1, p.1), less(r.1, p.1)]);
         let mismatch = (a[0].clone() * b[1].clone() - a[1].clone() * b[0].clone()).norm_sqr();
         let scale = (a[0].norm_sqr() * b[1].norm_sqr()).max(a[1].norm_sqr() * b[0].norm_sqr());
-        let similar = ratio_to_f64(&mismatch, &scale, 0).sqrt() < NEAR;
+        let similar = !scale.is_zero() && root_of_ratio(&mismatch, &scale) < NEAR;
         note(Special::SimilarPlatforms, mismatch, scale);
         let unequal = [0, 1].map(|k: usize| a[k].norm_sqr() - b[k].norm_sqr());
         let unequal = unequal.into_iter().max_by_key(|d| d * d).unwrap_or(Integer::ZERO);
@@ -162,4 +176,18 @@ pub(super) fn near_misses(numbers: &TriadNumbers) -> Vec<NearMiss> {
     }
     out.sort_by_key(|near| near.special);
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn roots_of_ratios_keep_their_digits_far_below_f64() {
+        let power = |n: usize| Integer::ONE << n;
+        assert_eq!(root_of_ratio(&Integer::from(9), &power(2000)), 3.0 * 2f64.powi(-1000));
+        assert_eq!(root_of_ratio(&Integer::from(2), &power(2001)), 2f64.powi(-1000));
+        assert_eq!(root_of_ratio(&Integer::ONE, &power(9000)), 5e-324);
+        assert_eq!(root_of_ratio(&Integer::ZERO, &power(9)), 0.0);
+    }
 }

@@ -117,7 +117,8 @@ pub(super) fn complex_residual(legs: &[LegNumbers<f64>], theta: Complex64, u: Co
     let relative = |terms: &[Complex64]| {
         let sum: Complex64 = terms.iter().sum();
         let size: f64 = terms.iter().map(|t| t.norm()).sum();
-        if size > 0.0 { sum.norm() / size } else { 0.0 }
+        // The unit of length is about the group's size: where all terms should vanish, what rounding leaves of them is nothing.
+        sum.norm() / (size + 1.0)
     };
     legs.iter()
         .map(|leg| match leg {
@@ -127,7 +128,7 @@ pub(super) fn complex_residual(legs: &[LegNumbers<f64>], theta: Complex64, u: Co
                 // The factors themselves come out of cancelling terms, so their sizes count before cancelling.
                 let size = (u.norm() + (theta * beta).norm() + alpha.norm())
                     * (v.norm() + (inverse * beta).norm() + alpha.norm());
-                // The unit of length is about the group's size: on an isotropic line of a zero-length leg one factor vanishes.
+                // On an isotropic line of a zero-length leg one factor vanishes.
                 (p * q - length * length).norm() / (size + 1.0)
             }
             LegNumbers::Line { alpha, beta, normal } => {
@@ -190,6 +191,14 @@ mod tests {
         let point = LegNumbers::Circle { alpha, beta, length: 0.0 };
         let at = Placement { rotation: Complex64::ONE, u: Complex64::new(1e-49, 0.0) };
         assert_eq!(determinant(&[point, second, third], at), 0.0);
+    }
+
+    #[test]
+    fn what_rounding_leaves_of_a_point_on_its_line_is_no_error() {
+        let point = || Gaussian::new(0.0, 0.0);
+        let line = LegNumbers::Line { alpha: point(), beta: point(), normal: Gaussian::new(0.6, 0.8) };
+        let (u, v) = (Complex64::new(3e-50, 0.0), Complex64::new(0.0, 1e-50));
+        assert!(complex_residual(&[line], Complex64::new(2.0, 2.0), u, v) < 1e-40);
     }
 
     #[test]

@@ -122,7 +122,7 @@ impl Manipulator {
             LockedGroup::Pinned(pinned) => pinned.certify(),
             LockedGroup::Placed(pose) => {
                 let mut group = placed(*pose);
-                group.certify_given();
+                group.certify_given(*pose);
                 group
             }
         };
@@ -144,6 +144,9 @@ impl Manipulator {
             self.legs.iter().zip(&legs).filter(|(_, l)| l.passive.len() == 3).map(|(leg, _)| leg).collect();
         let factor: usize = free.iter().map(|leg| branch_count(leg)).product();
         group.account = scaled(group.account, factor);
+        if let Some(certificate) = &mut group.certificate {
+            certificate.free_ways = factor;
+        }
         for mode in &group.modes {
             let ways = self.joint_values(&legs, &held, mode);
             let found: usize = ways.iter().map(|way| way.1).sum();
@@ -160,6 +163,7 @@ impl Manipulator {
         }
         if factor > 1 {
             group.complex.iter_mut().for_each(|mode| mode.multiplicity *= factor);
+            group.complex_out_of_range *= factor;
             group.rejections.iter_mut().for_each(|rejection| rejection.multiplicity *= factor);
         }
         assert!(group.account.adds_up(), "every way of a free leg is booked: {:?}", group.account);
@@ -236,8 +240,10 @@ fn placed(pose: crate::linkage::Pose) -> Assemblies {
         AssemblyMode { pose, multiplicity: 1, residual: 0.0, det_a: 1.0, proof: Verdict::NotAsked, pose_box: None };
     Assemblies {
         status: Status::Complete,
+        limit: None,
         modes: vec![mode],
         complex: Vec::new(),
+        complex_out_of_range: 0,
         account: Account { degree: 1, real: 1, ..Account::default() },
         rejections: Vec::new(),
         self_motions: Vec::new(),

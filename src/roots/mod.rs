@@ -8,6 +8,7 @@ mod companion;
 mod isolate;
 mod locate;
 mod polish;
+mod wide;
 
 pub use circle::{CountedRoots, Harmonics};
 pub use companion::{PolynomialRoots, RootsError, companion_roots, companion_roots_real};

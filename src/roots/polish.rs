@@ -2,12 +2,14 @@
 //!
 //! Ehrlich and Aberth's simultaneous iteration (Aberth 1973), with one twist: the polynomial is evaluated exactly, over the
 //! integers, at dyadic points. So there is no noise floor, near-double roots come out with all their digits, and two
-//! starting values never end in one root: each iterate is repelled by the others. Corrections are `f64`: one step adds up
-//! to 52 bits.
+//! starting values never end in one root: each iterate is repelled by the others. Corrections have the digits of `f64` until an iterate is much nearer to its
+//! root than to the others; from there Newton's, divided out over the integers, double the digits at each step.
 
+use dashu_int::ops::BitTest;
 use num_complex::Complex64;
 
-use crate::algebra::{Gaussian, Integer, Ring, UPoly, integer_to_f64_scaled};
+use super::wide::Wide;
+use crate::algebra::{Gaussian, Integer, Ring, UPoly};
 
 /// A root as a dyadic complex number: `numerator / 2^bits`.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,7 +28,21 @@ impl FineRoot {
 
     /// A number near this root to `f64` accuracy.
     pub fn from_complex(value: Complex64, bits: usize) -> Self {
-        Self { numerator: fixed(value, bits), bits }
+        Self { numerator: Wide::new(value, 0).fixed(bits), bits }
+    }
+
+    /// The same number, cut to so many bits after the point.
+    pub fn with_bits(&self, bits: usize) -> Self {
+        let part = |x: &Integer| match bits.checked_sub(self.bits) {
+            Some(more) => x.clone() << more,
+            None => x.clone() >> (self.bits - bits),
+        };
+        Self { numerator: self.numerator.map(part), bits }
+    }
+
+    /// Bits to which a settled root is known relative to its size: fewer than [`FineRoot::bits`] for a small one.
+    pub fn significant_bits(&self) -> usize {
+        self.bits.min(size_in_bits(&self.numerator))
     }
 
     /// `2^(bits·formal_degree) · p(root)`, exactly.
@@ -54,43 +70,61 @@ pub struct NotSettled {
     pub steps: usize,
 }
 
-/// Steps allowed. Six roots from random starts settle in under 20; a cluster 2⁻⁶⁰ wide in about 60.
+/// Steps allowed, and one more for every second bit. Six roots from random starts settle in under 20; a cluster 2⁻⁶⁰ wide in about 60.
 const MAX_STEPS: usize = 300;
 
 /// Last bits that may still move when a root counts as settled.
-const SLACK_BITS: i64 = 6;
+const SLACK_BITS: usize = 6;
 
-/// How far a stuck iterate is set aside, relative to its size: far above rounding, far below what starts are worth.
-const NUDGE: f64 = 1.0 / 1024.0;
+/// A step that is shorter than the way to the nearest other iterate by so many bits is Newton's, divided out exactly: the others bend it by less than its
+/// own error.
+const ALONE_BITS: i64 = 30;
+
+/// How far an iterate that stands still is set aside, relative to its size: 2^-10, far above rounding, far below what starts are worth. One that
+/// coincides with another goes by the last bit of the starts.
+const NUDGE: i64 = -10;
+
+/// A nudge is at least so many last bits long, to be one in its direction.
+const NUDGE_BITS: i64 = 4;
 
 /// All roots of a square-free polynomial over the Gaussian integers, from rough starting values, to `2^-bits` absolute.
 ///
 /// **Shape**: as many starting values as the degree; root `k` belongs to start `k`.
 /// **Accuracy**: the last correction of each root was below `2^(6-bits)·max(1, |root|)`, evaluated without rounding.
-/// **Errors**: [`NotSettled`] after 300 steps; the polynomial then is not square-free or needs more bits.
+/// **Errors**: [`NotSettled`] after some hundred steps, or where two iterates meet; the polynomial then is not square-free or needs more bits.
 /// **Cost**: about 10 µs per root for degree 6 and 160 bits.
 ///
 /// ```
 /// use assur::algebra::{Gaussian, Integer, UPoly};
 /// use assur::num_complex::Complex64;
-/// use assur::roots::polish_roots;
+/// use assur::roots::{FineRoot, polish_roots};
 /// let p = UPoly::new([-2, 0, 1].map(|c| Gaussian::new(Integer::from(c), Integer::ZERO)).to_vec()); // x² - 2
-/// let roots = polish_roots(&p, &[Complex64::new(1.0, 0.5), Complex64::new(-1.0, 0.5)], 200).unwrap();
+/// let starts = [1.0, -1.0].map(|re| FineRoot::from_complex(Complex64::new(re, 0.5), 10));
+/// let roots = polish_roots(&p, &starts, 200).unwrap();
 /// assert_eq!(roots[0].to_complex(), Complex64::new(2f64.sqrt(), 0.0));
 /// ```
 pub fn polish_roots(
     p: &UPoly<Gaussian<Integer>>,
-    starts: &[Complex64],
+    starts: &[FineRoot],
     bits: usize,
 ) -> Result<Vec<FineRoot>, NotSettled> {
-    assert_eq!(p.degree(), Some(starts.len()), "one starting value per root");
-    let degree = starts.len();
+    let mut roots = starts.to_vec();
+    polish(p, &mut roots, bits).map(|()| roots)
+}
+
+/// The same in place: where the iteration does not settle, the roots are as near as it came, to start from with more bits.
+pub(super) fn polish(p: &UPoly<Gaussian<Integer>>, roots: &mut [FineRoot], bits: usize) -> Result<(), NotSettled> {
+    assert_eq!(p.degree(), Some(roots.len()), "one starting value per root");
+    let degree = roots.len();
     let derivative = p.derivative();
-    let mut roots: Vec<FineRoot> = starts.iter().map(|&s| FineRoot::from_complex(s, bits)).collect();
+    let coarsest = roots.iter().map(|start| start.bits).min().unwrap_or(bits) as i64;
+    roots.iter_mut().for_each(|root| *root = root.with_bits(bits));
     let mut settled = vec![false; degree];
-    for _ in 0..MAX_STEPS {
+    // From half of the bits on, a pair of roots as near as the last bit comes apart by a factor of three at each step.
+    let steps = MAX_STEPS + bits / 2;
+    for step in 0..steps {
         if settled.iter().all(|&s| s) {
-            return Ok(roots);
+            return Ok(());
         }
         for k in 0..degree {
             if settled[k] {
@@ -103,27 +137,50 @@ pub fn polish_roots(
             }
             // p and p' carry 2^(bits·n) and 2^(bits·(n-1)).
             let slope = roots[k].evaluate(&derivative, degree - 1);
-            // 1/correction = p'/p - sum over the others of 1/(root - other)
-            let newton = quotient(&slope, &value, bits as i64);
-            let gaps: Vec<Gaussian<Integer>> = (0..degree)
+            let unit = -(bits as i64);
+            let gaps: Vec<Wide> = (0..degree)
                 .filter(|&j| j != k)
-                .map(|j| roots[k].numerator.clone() - roots[j].numerator.clone())
+                .map(|j| Wide::of(&(roots[k].numerator.clone() - roots[j].numerator.clone()), unit))
                 .collect();
-            let repulsion: Complex64 = gaps.iter().map(|gap| scaled(gap, -(bits as i64)).inv()).sum();
-            let correction = (newton - repulsion).inv();
-            if gaps.contains(&Gaussian::zero()) || !correction.is_finite() {
-                // Two iterates coincide, or stand still by symmetry: a nudge in a direction of its own sets this one free.
-                let size = roots[k].to_complex().norm().max(f64::MIN_POSITIVE);
-                let nudge = Complex64::from_polar(size * NUDGE, 1.0 + k as f64);
-                roots[k].numerator = roots[k].numerator.clone() + fixed(nudge, bits);
-                continue;
+            // 1/correction = p'/p - sum over the others of 1/(root - other)
+            let crowded = gaps.iter().any(|gap| gap.is_zero());
+            if crowded && step > 0 {
+                // Two roots nearer than the last bit.
+                return Err(NotSettled { bits, steps: step });
             }
-            roots[k].numerator = roots[k].numerator.clone() - fixed(correction, bits);
-            let size = roots[k].to_complex().norm().max(1.0);
-            settled[k] = correction.norm() < size * 2f64.powi((SLACK_BITS - bits as i64).max(-1000) as i32);
+            let correction = (!crowded).then(|| {
+                let newton = Wide::of(&slope, -unit) * Wide::of(&value, 0).inv();
+                gaps.iter().fold(newton, |sum, gap| sum - gap.inv())
+            });
+            let Some(correction) = correction.filter(|inverse| !inverse.is_zero()).map(Wide::inv) else {
+                // Two starts coincide, or an iterate stands still by symmetry: a nudge in a direction of its own sets this one free.
+                let size =
+                    if crowded { -coarsest } else { Wide::of(&roots[k].numerator, unit).size().max(unit) + NUDGE };
+                let nudge = Wide::new(Complex64::from_polar(1.0, 1.0 + k as f64), size.max(unit + NUDGE_BITS));
+                roots[k].numerator = roots[k].numerator.clone() + nudge.fixed(bits);
+                continue;
+            };
+            let nearest = gaps.iter().map(|gap| gap.size()).min().unwrap_or(i64::MAX);
+            let alone = correction.size() < nearest.saturating_sub(ALONE_BITS) && slope != Gaussian::zero();
+            let away = if alone { divided(&value, &slope) } else { correction.fixed(bits) };
+            roots[k].numerator = roots[k].numerator.clone() - away.clone();
+            let size = size_in_bits(&roots[k].numerator).max(bits) - bits;
+            // Where others are as near as the correction is short, it says nothing of the way that is left.
+            settled[k] = alone && size_in_bits(&away) <= size + SLACK_BITS;
         }
     }
-    Err(NotSettled { bits, steps: MAX_STEPS })
+    Err(NotSettled { bits, steps })
+}
+
+/// Bits of the larger part.
+fn size_in_bits(x: &Gaussian<Integer>) -> usize {
+    x.re.bit_len().max(x.im.bit_len())
+}
+
+/// `a / b`, each part rounded toward zero.
+fn divided(a: &Gaussian<Integer>, b: &Gaussian<Integer>) -> Gaussian<Integer> {
+    let (size, numerator) = (b.norm_sqr(), a.clone() * b.conj());
+    numerator.map(|part| part / &size)
 }
 
 /// `numerator·2^exponent` in `f64` parts.
@@ -135,36 +192,7 @@ pub(crate) fn scaled(numerator: &Gaussian<Integer>, exponent: i64) -> Complex64 
 
 /// `a / b · 2^exponent` in `f64` parts, `b` not zero; to a few units in the last place of the larger part.
 pub(crate) fn quotient(a: &Gaussian<Integer>, b: &Gaussian<Integer>, exponent: i64) -> Complex64 {
-    let (a, ea) = floating(a);
-    let (b, eb) = floating(b);
-    // Exponents apart in two steps: 2^e alone may leave the range where the quotient does not.
-    let e = (ea - eb + exponent).clamp(-2200, 2200) as i32;
-    (a / b) * 2f64.powi(e / 2) * 2f64.powi(e - e / 2)
-}
-
-/// `(m, e)` with the number `≈ m·2^e` and the larger part of `m` about 1.
-fn floating(x: &Gaussian<Integer>) -> (Complex64, i64) {
-    let (re, e_re) = integer_to_f64_scaled(&x.re);
-    let (im, e_im) = integer_to_f64_scaled(&x.im);
-    let e = match (re == 0.0, im == 0.0) {
-        (true, true) => return (Complex64::ZERO, 0),
-        (false, true) => e_re,
-        (true, false) => e_im,
-        (false, false) => e_re.max(e_im),
-    };
-    let part = |m: f64, own: i64| m * 2f64.powi((own - e - 64).max(-1000) as i32);
-    (Complex64::new(part(re, e_re), part(im, e_im)), e + 64)
-}
-
-/// `value·2^bits`, rounded toward zero.
-fn fixed(value: Complex64, bits: usize) -> Gaussian<Integer> {
-    let part = |x: f64| {
-        // Mantissa and exponent apart, so that no product overflows.
-        let rational = crate::algebra::dyadic(x).expect("iterates stay finite");
-        let (numerator, denominator) = rational.into_parts();
-        (numerator << bits) / Integer::from(denominator)
-    };
-    Gaussian::new(part(value.re), part(value.im))
+    (Wide::of(a, exponent) * Wide::of(b, 0).inv()).to_complex()
 }
 
 #[cfg(test)]
@@ -175,12 +203,16 @@ mod tests {
         Gaussian::new(re.into(), im.into())
     }
 
+    fn near(values: &[Complex64]) -> Vec<FineRoot> {
+        values.iter().map(|&value| FineRoot::from_complex(value, 100)).collect()
+    }
+
     #[test]
     fn a_near_double_root_comes_out_with_all_digits() {
         // (3x - 1)² = 2^-120: roots 1/3 ± 2^-60/3, which f64 cannot tell apart.
         let p = UPoly::new(vec![g(1, 0), g(-6, 0), g(9, 0)]);
         let p = p.scaled(&Gaussian::real(Integer::ONE << 120)) - UPoly::constant(g(1, 0));
-        let starts = [Complex64::new(0.33, 0.01), Complex64::new(0.34, -0.02)];
+        let starts = near(&[Complex64::new(0.33, 0.01), Complex64::new(0.34, -0.02)]);
         let roots = polish_roots(&p, &starts, 200).unwrap();
         let gap = roots[0].numerator.clone() - roots[1].numerator.clone();
         let gap = scaled(&gap, -200).norm();
@@ -188,9 +220,22 @@ mod tests {
     }
 
     #[test]
+    fn a_pair_of_roots_a_thousand_bits_apart_is_found_from_where_the_last_attempt_ended() {
+        // (3x - 1)² = 2^-2000
+        let p = UPoly::new(vec![g(1, 0), g(-6, 0), g(9, 0)]);
+        let p = p.scaled(&Gaussian::real(Integer::ONE << 2000)) - UPoly::constant(g(1, 0));
+        let mut roots = near(&[Complex64::new(0.33, 0.01), Complex64::new(0.34, -0.02)]);
+        assert!(polish(&p, &mut roots, 640).is_err());
+        assert!((roots[0].to_complex() - 1.0 / 3.0).norm() < 1e-15);
+        polish(&p, &mut roots, 1280).expect("settles");
+        let gap = Wide::of(&(roots[0].numerator.clone() - roots[1].numerator.clone()), -1280);
+        assert_eq!(gap.size(), -1001);
+    }
+
+    #[test]
     fn equal_starts_still_find_different_roots() {
         let p = UPoly::new(vec![g(-1, 0), g(0, 0), g(0, 0), g(1, 0)]); // cube roots of unity
-        let roots = polish_roots(&p, &[Complex64::new(0.3, 0.1); 3], 100).unwrap();
+        let roots = polish_roots(&p, &near(&[Complex64::new(0.3, 0.1); 3]), 100).unwrap();
         for (k, a) in roots.iter().enumerate() {
             assert!((a.to_complex().powi(3) - 1.0).norm() < 1e-14);
             assert!(roots[..k].iter().all(|b| (a.to_complex() - b.to_complex()).norm() > 1.0));
@@ -205,7 +250,7 @@ mod tests {
         let p = linear(-Gaussian::real(big.clone()), g(1, 0))
             * linear(g(-1, 0), Gaussian::real(big))
             * linear(g(0, -1), g(1, 0));
-        let starts = [Complex64::new(1e12, 0.0), Complex64::new(1e-11, 1e-12), Complex64::new(0.1, 0.9)];
+        let starts = near(&[Complex64::new(1e12, 0.0), Complex64::new(1e-11, 1e-12), Complex64::new(0.1, 0.9)]);
         let roots = polish_roots(&p, &starts, 200).unwrap();
         assert_eq!(roots[0].to_complex(), Complex64::new(2f64.powi(40), 0.0));
         assert!((roots[1].to_complex() / 2f64.powi(-40) - 1.0).norm() < 1e-15);

@@ -5,6 +5,10 @@ use std::f64::consts::PI;
 use assur::nalgebra::Vector2;
 use assur::{Assemblies, Dyad, Offset, Pose, Triad};
 
+#[path = "../random/mod.rs"]
+mod random;
+pub use random::Random;
+
 /// The twenty triads.
 pub const TRIADS: [[&str; 3]; 20] = [
     ["RR", "RR", "RR"],
@@ -28,26 +32,6 @@ pub const TRIADS: [[&str; 3]; 20] = [
     ["RP", "PP", "PP"],
     ["PP", "PP", "PP"],
 ];
-
-/// Numbers from a seed: the generator splitmix64 (Steele, Lea, Flood 2014), the same on every machine.
-pub struct Random(u64);
-
-impl Random {
-    /// The sequence of this seed.
-    pub fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    /// A number in [low, high).
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        let unit = ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64;
-        low + (high - low) * unit
-    }
-}
 
 /// A leg that holds the platform in this pose.
 ///

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use anstyle::{AnsiColor, Style};
-use assur::exchange::{AngleUnit, CertificateReport, CheckReport, ModelFile, VerifyReport};
+use assur::exchange::{AngleUnit, CertificateReport, CheckReport, DyadEntry, ModelFile, SubjectReport, VerifyReport};
 use assur::num_complex::Complex64;
 use assur::{Assemblies, AssemblyMode, AssemblyModes, JointKind, Manipulator, Status, Triad, Verdict};
 use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle};
@@ -127,12 +127,16 @@ pub(crate) fn triad(triad: &Triad, answer: &Assemblies, asked: &Asked) -> String
 pub(crate) fn verify(report: &VerifyReport) -> String {
     let mut text = String::new();
     let count = |verdict: &str| report.claims.iter().filter(|claim| claim.verdict == verdict).count();
-    let mut table = table(&["claim", "x", "y", "phi (rad)", "verdict", "nearest mode", "distance"]);
+    let mut table = table(&["claim", "x", "y", "phi (rad)", "verdict", "nearest pose", "distance"]);
     for (number, claim) in (1..).zip(&report.claims) {
         let nearest = claim.nearest.map_or("none".to_owned(), |mode| mode.to_string());
         let distance = claim.distance.map_or(String::new(), |distance| format!("{distance:.1e}"));
         let [x, y, phi] = claim.pose.map(|value| digits(value, POSE_DIGITS));
-        table.add_row([number.to_string(), x, y, phi, claim.verdict.to_owned(), nearest, distance]);
+        let verdict = match claim.repeats {
+            Some(earlier) => format!("{}, as claim {earlier}", claim.verdict),
+            None => claim.verdict.to_owned(),
+        };
+        table.add_row([number.to_string(), x, y, phi, verdict, nearest, distance]);
     }
     if !report.claims.is_empty() {
         line(&mut text, format_args!("{table}"));
@@ -141,7 +145,7 @@ pub(crate) fn verify(report: &VerifyReport) -> String {
         let [x, y, phi] = missing.pose.map(|value| digits(value, POSE_DIGITS));
         line(
             &mut text,
-            format_args!("{ALARM}missing: mode {}, x = {x}, y = {y}, phi = {phi} rad{ALARM:#}", missing.mode),
+            format_args!("{ALARM}missing: pose {}, x = {x}, y = {y}, phi = {phi} rad{ALARM:#}", missing.mode),
         );
     }
     let [proven, refuted, undecided] = ["proven", "refuted", "undecided"].map(count);
@@ -152,7 +156,7 @@ pub(crate) fn verify(report: &VerifyReport) -> String {
     );
     if let Some(certificate) = &report.certificate {
         line(&mut text, format_args!("proof: {}", certificate.summary));
-        line(&mut text, format_args!("of {}", certificate.about));
+        subject(&mut text, certificate);
     }
     text
 }
@@ -192,6 +196,16 @@ fn group_facts(text: &mut String, group: &Assemblies, unit: AngleUnit, asked: &A
         Status::Undecided => "undecided: not every root could be decided",
     };
     line(text, format_args!("{STRONG}{status}{STRONG:#}; degree {} = {}", account.degree, counts.join(" + ")));
+    if let Some(limit) = group.limit {
+        line(text, format_args!("{ALARM}{limit}{ALARM:#}"));
+    }
+    if group.complex_out_of_range > 0 {
+        let count = group.complex_out_of_range;
+        line(
+            text,
+            format_args!("{count} of the complex solutions cannot be written: their numbers leave the range of f64"),
+        );
+    }
     for motion in &group.self_motions {
         let reality = if motion.real { "" } else { " (no real pose on it)" };
         match motion.phi {
@@ -211,7 +225,10 @@ fn group_facts(text: &mut String, group: &Assemblies, unit: AngleUnit, asked: &A
         line(text, format_args!("special: {}", names.join(", ")));
     }
     for near in &group.near {
-        line(text, format_args!("nearly {}, by {:.1e}, but not: decided exactly", near.special.name(), near.distance));
+        line(
+            text,
+            format_args!("nearly {}, by {}, but not: decided exactly", near.special.name(), distance(near.distance)),
+        );
     }
     if let Some(certificate) = &group.certificate {
         proof(text, group, &CertificateReport::from(certificate), unit);
@@ -238,10 +255,15 @@ fn group_facts(text: &mut String, group: &Assemblies, unit: AngleUnit, asked: &A
     }
 }
 
+/// How far a shape is missed.
+fn distance(value: f64) -> String {
+    if value < f64::MIN_POSITIVE { format!("less than {:.1e}", f64::MIN_POSITIVE) } else { format!("{value:.1e}") }
+}
+
 /// The box of each mode, and the theorem.
 fn proof(text: &mut String, group: &Assemblies, certificate: &CertificateReport, unit: AngleUnit) {
     let phi = format!("phi ({})", unit.name());
-    let mut table = table(&["mode", "proof", "x", "±", "y", "±", &phi, "±"]);
+    let mut table = table(&["pose", "proof", "x", "±", "y", "±", &phi, "±"]);
     for (number, mode) in (1..).zip(&group.modes) {
         let mut row =
             vec![number.to_string(), if mode.proof == Verdict::Proven { "proven" } else { "undecided" }.to_owned()];
@@ -253,10 +275,10 @@ fn proof(text: &mut String, group: &Assemblies, certificate: &CertificateReport,
         table.add_row(row);
     }
     if !group.modes.is_empty() {
-        line(text, format_args!("\nboxes, each with one mode in it and no other\n{table}"));
+        line(text, format_args!("\nboxes, each with one pose in it and no other\n{table}"));
     }
     line(text, format_args!("{STRONG}proof: {}{STRONG:#}", certificate.summary));
-    line(text, format_args!("of {}", certificate.about));
+    subject(text, certificate);
     if certificate.rounded_offset {
         line(
             text,
@@ -266,6 +288,35 @@ fn proof(text: &mut String, group: &Assemblies, certificate: &CertificateReport,
     if certificate.indistinct > 0 {
         let count = certificate.indistinct;
         line(text, format_args!("{count} boxes meet: their modes are nearer than f64 can tell"));
+    }
+}
+
+/// What a proof is about, with every number to its last digit.
+fn subject(text: &mut String, certificate: &CertificateReport) {
+    line(text, format_args!("of {}", certificate.about));
+    match &certificate.subject {
+        SubjectReport::Triad(triad) => {
+            for (number, leg) in (1..).zip(&triad.legs) {
+                line(text, format_args!("  leg {number}: {}", dyad(leg)));
+            }
+        }
+        SubjectReport::Pinned { a, b, leg } => {
+            line(text, format_args!("  pin: a = {a:?}, b = {b:?}"));
+            line(text, format_args!("  leg: {}", dyad(leg)));
+        }
+        SubjectReport::Placed([x, y, phi]) => line(text, format_args!("  x = {x:?}, y = {y:?}, phi = {phi:?} rad")),
+    }
+}
+
+fn dyad(leg: &DyadEntry) -> String {
+    match leg {
+        DyadEntry::RR { a, b, l } => format!("RR, a = {a:?}, b = {b:?}, l = {l:?}"),
+        DyadEntry::PR { a, u, b } => format!("PR, a = {a:?}, u = {u:?}, b = {b:?}"),
+        DyadEntry::RP { a, b, v, d, delta: None } => format!("RP, a = {a:?}, b = {b:?}, v = {v:?}, d = {d:?}"),
+        DyadEntry::RP { a, b, v, delta: Some(delta), .. } => {
+            format!("RP, a = {a:?}, b = {b:?}, v = {v:?}, delta = {delta:?}")
+        }
+        DyadEntry::PP { phi } => format!("PP, phi = {phi:?} rad"),
     }
 }
 
