@@ -7,6 +7,7 @@ mod assemble;
 mod assemblies;
 mod certificate;
 mod constraint;
+mod det_a;
 mod dyad;
 mod exact_box;
 mod fibre;
