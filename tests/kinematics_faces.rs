@@ -149,6 +149,44 @@ fn a_missing_curve_has_a_reason() {
 }
 
 #[test]
+fn check_and_forward_name_what_holds_for_every_input() {
+    let leg = |joints: &str, x: i32, y: i32, links: &str| {
+        format!(
+            "[[leg]]\njoints = \"{joints}\"\nbase = {{ at = [{x}, {y}] }}\n{links}platform = {{ at = [{}, {}] }}\n",
+            2 * x,
+            2 * y
+        )
+    };
+    let head = "schema = \"assur/manipulator/1\"\n";
+    let strut = |x, y| leg("R_P_R", x, y, "");
+    let names = |name: &str, text: &str| -> Vec<String> {
+        let file = folder("remarks").join(name);
+        std::fs::write(&file, text).expect("a file");
+        let check = json(&["check", file.to_str().expect("a path"), "--json"]);
+        let remarks = check["remarks"].as_array().expect("remarks").clone();
+        remarks.iter().map(|remark| remark["name"].as_str().expect("a name").to_owned()).collect()
+    };
+    let similar = head.to_owned() + &strut(0, 0) + &strut(4, 0) + &strut(1, 3);
+    assert_eq!(names("similar.toml", &similar), ["similar_platforms"]);
+    let flat = head.to_owned() + &strut(0, 0) + &strut(4, 0) + &strut(7, 0);
+    assert_eq!(names("flat.toml", &flat), ["similar_platforms", "collinear_base", "collinear_platform"]);
+    let twice = head.to_owned() + &strut(1, 2) + &strut(1, 2) + &strut(0, 5);
+    assert!(names("twice.toml", &twice).contains(&"coincident_pivots".to_owned()));
+    // A leg without actuator doubles every count.
+    let pinned = leg("_R__R_R", 0, 0, "links = [4, 3]\n");
+    let cranked = leg("_R_RR", 4, 0, "links = [4, 9]\n");
+    let free = head.to_owned() + &pinned + &cranked + &leg("RRR", 1, 3, "links = [8, 8]\n");
+    assert_eq!(names("free.toml", &free), ["free_leg"]);
+    let file = folder("remarks").join("free.toml");
+    let file = file.to_str().expect("a path");
+    let check = json(&["check", file, "--json"]);
+    let forward = json(&["forward", file, "--inputs=0.8,-0.9,0.8", "--json"]);
+    assert_eq!((&check["degree_bound"], &forward["account"]["degree"]), (&4.into(), &4.into()));
+    let table = run(&["forward", file, "--inputs=0.8,-0.9,0.8"]);
+    assert!(String::from_utf8_lossy(&table.stdout).contains("leg 3 has no actuator and reaches each pose in 2 ways"));
+}
+
+#[test]
 fn singularities_are_drawn_and_mapped() {
     let folder = folder("singularities");
     let (svg, csv) = (folder.join("loci.svg"), folder.join("map.csv"));

@@ -171,6 +171,44 @@ fn crossings_of_every_family_are_of_type_2_and_on_the_exact_curve() {
     assert!(located > 100, "{located}");
 }
 
+/// Drawn curves and maps keep to where every leg is within its limits, and the window to where they are.
+#[test]
+fn loci_and_maps_are_clipped_to_limits() {
+    let (mut robot, _) = Manipulator::of_family("3-RRR").unwrap();
+    let phi = 0.3;
+    let wide = robot.plane_window(phi);
+    let before = robot.trace_singularities(phi, "+-+", &wide).unwrap();
+    for leg in &mut robot.legs {
+        leg.limits[0] = Some([0.2, 2.5]);
+        leg.limits[1] = Some([-2.0, 2.0]);
+    }
+    let window = robot.plane_window(phi);
+    let extent = |w: &assur::PlaneWindow| (w.high - w.low).product();
+    assert!(extent(&window) < extent(&wide));
+    let pieces = robot.trace_singularities(phi, "+-+", &wide).unwrap();
+    assert!(!before.is_empty() && pieces.len() < before.len());
+    let inside = |p: Vector2<f64>, signs: &str| {
+        let mode = robot.working_mode(&Pose::new(p.x, p.y, phi), signs);
+        mode.is_ok_and(|mode| mode.violations.is_empty())
+    };
+    assert!(pieces.iter().all(|piece| inside((piece[0] + piece[1]) / 2.0, "+-+")));
+    let map = robot.plane_map(assur::MapQuantity::Dexterity, phi, "+-+", None, &wide, [30, 30]).unwrap();
+    let known = map.values.iter().enumerate().filter(|(_, value)| value.is_some());
+    assert!(known.clone().count() > 0 && known.count() < 900);
+    for (index, value) in map.values.iter().enumerate() {
+        assert_eq!(value.is_some(), inside(map.at(index % 30, index / 30), "+-+"));
+    }
+    // Edges of a leg's reach are drawn only where some mode reaches, within the limits, beside them.
+    for locus in robot.leg_loci(phi).unwrap() {
+        for [p, q] in robot.trace_leg_locus(&locus, phi, &wide) {
+            let (middle, along) = ((p + q) / 2.0, (q - p).normalize());
+            let side = Vector2::new(-along.y, along.x) * 0.01;
+            let reached = |p: Vector2<f64>| robot.mode_names().iter().any(|signs| inside(p, signs));
+            assert!(reached(middle + side) || reached(middle - side) || reached(middle), "{middle}");
+        }
+    }
+}
+
 #[test]
 fn degrees_of_the_exact_curves() {
     for (family, degree) in [("3-R_P_R", 2), ("3-R_R_R", 2), ("3-_P_RR", 20)] {

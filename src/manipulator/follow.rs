@@ -389,8 +389,9 @@ impl Walk<'_> {
                             pose: self.pose,
                         };
                         let event = self.meeting(step, from, to, t).unwrap_or_else(unknown);
-                        let written = at(rounded(event.at - step as f64));
-                        out.events.push(self.or_self_motion(event, &[&written, to, from]));
+                        let written = (1..=6).map(|digits| at(rounded(event.at - step as f64, digits)));
+                        let beside: Vec<Vec<f64>> = written.chain([to.to_vec(), from.to_vec()]).collect();
+                        out.events.push(self.or_self_motion(event, &beside));
                         return false;
                     }
                 }
@@ -401,10 +402,10 @@ impl Walk<'_> {
 
     /// The end of a path, as a self-motion where these inputs, or others beside them, leave the platform free to move.
     ///
-    /// There det A vanishes as at a meeting; and the path ends beside the exact inputs, which rounding may miss.
-    fn or_self_motion(&self, event: PathEvent, beside: &[&[f64]]) -> PathEvent {
+    /// There det A vanishes as at a meeting; and the path ends beside the exact inputs, which are looked for at decimals of the way only.
+    fn or_self_motion(&self, event: PathEvent, beside: &[Vec<f64>]) -> PathEvent {
         let size = event.inputs.iter().fold(1.0, |size: f64, q| size.max(q.abs()));
-        let candidates = std::iter::once(&event.inputs[..]).chain(beside.iter().copied());
+        let candidates = std::iter::once(&event.inputs).chain(beside);
         let near = candidates.filter(|other| apart(other, &event.inputs) <= BESIDE * size);
         let found = near.into_iter().find_map(|other| {
             let answer = self.free.forward(other).ok()?;
@@ -488,9 +489,10 @@ const INNER: f64 = 1.0 - 1e-12;
 /// Inputs within this of a path's end, in their own sizes, are looked at for a self-motion that the end only nears.
 const BESIDE: f64 = 1e-5;
 
-/// A share of the way to six decimals: where a path passes through a self-motion, it is mostly at a number written down by someone.
-fn rounded(t: f64) -> f64 {
-    (t * 1e6).round() / 1e6
+/// A share of the way to so many decimals: where a path passes through a self-motion, it is mostly at a number written down by someone.
+fn rounded(t: f64, digits: i32) -> f64 {
+    let parts = 10f64.powi(digits);
+    (t * parts).round() / parts
 }
 
 /// Half-widths of central differences: the cube root of rounding.
