@@ -175,28 +175,28 @@ fn crossings_of_every_family_are_of_type_2_and_on_the_exact_curve() {
 #[test]
 fn loci_and_maps_are_clipped_to_limits() {
     let (mut robot, _) = Manipulator::of_family("3-RRR").unwrap();
-    let phi = 0.3;
+    let (phi, signs) = (0.3, "+++".to_owned());
+    let mode = robot.working_mode(&Pose::new(5.5, 4.0, phi), &signs).unwrap();
     let wide = robot.plane_window(phi);
-    let before = robot.trace_singularities(phi, "+-+", &wide).unwrap();
-    for leg in &mut robot.legs {
-        leg.limits[0] = Some([0.2, 2.5]);
-        leg.limits[1] = Some([-2.0, 2.0]);
+    let before = robot.trace_singularities(phi, &signs, &wide).unwrap();
+    for (leg, joints) in robot.legs.iter_mut().zip(&mode.joints) {
+        leg.limits[0] = Some([joints[0] - 0.5, joints[0] + 0.9]);
     }
     let window = robot.plane_window(phi);
     let extent = |w: &assur::PlaneWindow| (w.high - w.low).product();
     assert!(extent(&window) < extent(&wide));
-    let pieces = robot.trace_singularities(phi, "+-+", &wide).unwrap();
+    let pieces = robot.trace_singularities(phi, &signs, &wide).unwrap();
     assert!(!before.is_empty() && pieces.len() < before.len());
     let inside = |p: Vector2<f64>, signs: &str| {
         let mode = robot.working_mode(&Pose::new(p.x, p.y, phi), signs);
         mode.is_ok_and(|mode| mode.violations.is_empty())
     };
-    assert!(pieces.iter().all(|piece| inside((piece[0] + piece[1]) / 2.0, "+-+")));
-    let map = robot.plane_map(assur::MapQuantity::Dexterity, phi, "+-+", None, &wide, [30, 30]).unwrap();
+    assert!(pieces.iter().all(|piece| inside((piece[0] + piece[1]) / 2.0, &signs)));
+    let map = robot.plane_map(assur::MapQuantity::Dexterity, phi, &signs, None, &wide, [30, 30]).unwrap();
     let known = map.values.iter().enumerate().filter(|(_, value)| value.is_some());
     assert!(known.clone().count() > 0 && known.count() < 900);
     for (index, value) in map.values.iter().enumerate() {
-        assert_eq!(value.is_some(), inside(map.at(index % 30, index / 30), "+-+"));
+        assert_eq!(value.is_some(), inside(map.at(index % 30, index / 30), &signs));
     }
     // Edges of a leg's reach are drawn only where some mode reaches, within the limits, beside them.
     for locus in robot.leg_loci(phi).unwrap() {

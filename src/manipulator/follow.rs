@@ -242,7 +242,7 @@ impl Manipulator {
             if walk.row(&mut out, step, &pair[1], id).is_none() || lost {
                 let (inputs, pose) = (pair[1].clone(), walk.pose);
                 let event = PathEvent { at: step as f64, kind: PathEventKind::Branch, inputs, pose };
-                out.events.push(walk.or_self_motion(event, &[]));
+                out.events.push(walk.or_self_motion(event, Vec::new()));
                 return Ok(out);
             }
             progress(step);
@@ -389,9 +389,10 @@ impl Walk<'_> {
                             pose: self.pose,
                         };
                         let event = self.meeting(step, from, to, t).unwrap_or_else(unknown);
-                        let written = (1..=6).map(|digits| at(rounded(event.at - step as f64, digits)));
-                        let beside: Vec<Vec<f64>> = written.chain([to.to_vec(), from.to_vec()]).collect();
-                        out.events.push(self.or_self_motion(event, &beside));
+                        let written = (1..=6).map(|digits| rounded(event.at - step as f64, digits));
+                        let beside: Vec<(f64, Vec<f64>)> =
+                            written.chain([1.0, 0.0]).map(|t| (step as f64 + t, at(t))).collect();
+                        out.events.push(self.or_self_motion(event, beside));
                         return false;
                     }
                 }
@@ -403,17 +404,19 @@ impl Walk<'_> {
     /// The end of a path, as a self-motion where these inputs, or others beside them, leave the platform free to move.
     ///
     /// There det A vanishes as at a meeting; and the path ends beside the exact inputs, which are looked for at decimals of the way only.
-    fn or_self_motion(&self, event: PathEvent, beside: &[Vec<f64>]) -> PathEvent {
+    fn or_self_motion(&self, event: PathEvent, beside: Vec<(f64, Vec<f64>)>) -> PathEvent {
         let size = event.inputs.iter().fold(1.0, |size: f64, q| size.max(q.abs()));
-        let candidates = std::iter::once(&event.inputs).chain(beside);
-        let near = candidates.filter(|other| apart(other, &event.inputs) <= BESIDE * size);
-        let found = near.into_iter().find_map(|other| {
-            let answer = self.free.forward(other).ok()?;
+        let candidates = std::iter::once((event.at, event.inputs.clone())).chain(beside);
+        let near = candidates.filter(|(_, other)| apart(other, &event.inputs) <= BESIDE * size);
+        let found = near.into_iter().find_map(|(at, inputs)| {
+            let answer = self.free.forward(&inputs).ok()?;
             let here = |phi: f64| super::frame::principal_angle(phi - event.pose.phi).abs() < NEAR;
-            answer.group.self_motions.into_iter().find(|motion| motion.real && motion.phi.is_none_or(here))
+            let real = answer.group.self_motions.into_iter().find(|motion| motion.real && motion.phi.is_none_or(here));
+            real.map(|motion| (at, inputs, motion.phi))
         });
         match found {
-            Some(motion) => PathEvent { kind: PathEventKind::SelfMotion { phi: motion.phi }, ..event },
+            // The exact inputs, and the last pose before them.
+            Some((at, inputs, phi)) => PathEvent { at, inputs, kind: PathEventKind::SelfMotion { phi }, ..event },
             None => event,
         }
     }
