@@ -175,7 +175,7 @@ impl Manipulator {
     ///
     /// **Shape**: rows as in [`Manipulator::forward`]; the mode nearest to `from`, or the first one. Limits do not stop a path, they are reported.
     /// **Proof**: between rows the mode is shown, in interval arithmetic, to be the only pose in a box around it; it never jumps. That limits are crossed nowhere
-    /// else is measured. **Accuracy**: meetings to about 1e-12 of the inputs, limits to rounding. **Cost**: some ten microseconds a row, more beside singularities.
+    /// else is measured. **Accuracy**: meetings to about 1e-12 of the inputs, limits to rounding. **Cost**: some fifty microseconds a row, more beside singularities and where limits are watched.
     ///
     /// # Errors
     /// A row of the wrong count or not finite, by number; no mode to start from.
