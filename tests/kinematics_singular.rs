@@ -209,6 +209,44 @@ fn loci_and_maps_are_clipped_to_limits() {
     }
 }
 
+/// Where the linear rows are parallel, near phi = 0.884 for the shipped 3-RPR, T has a double root of two poses: twins, not a meeting of modes.
+#[test]
+fn twin_poses_are_not_called_singular() {
+    let (sin, cos) = 0.8822f64.sin_cos();
+    let (base, platform) = ([[15.91, 0.0], [0.0, 10.0]], [[17.045, 0.0], [20.839 * cos, 20.839 * sin]]);
+    let legs = vec![Leg::rpr([0.0; 2], [0.0; 2]), Leg::rpr(base[0], platform[0]), Leg::rpr(base[1], platform[1])];
+    let robot = Manipulator::new("3-RPR", legs).unwrap();
+    let parallel = |phi: f64| {
+        let turn = |p: [f64; 2]| Pose::new(0.0, 0.0, phi).place(Vector2::from(p));
+        let [g, h] = [0, 1].map(|k: usize| turn(platform[k]) - Vector2::from(base[k]));
+        g.x * h.y - g.y * h.x
+    };
+    let (mut low, mut high) = (0.85, 0.92);
+    assert!(parallel(low) * parallel(high) < 0.0);
+    for _ in 0..60 {
+        let middle = (low + high) / 2.0;
+        if parallel(low) * parallel(middle) > 0.0 { low = middle } else { high = middle }
+    }
+    assert!((low - 0.884).abs() < 1e-3, "{low}");
+    let mut twins = 0;
+    for k in 0..40 {
+        let k = f64::from(k);
+        let pose = Pose::new(12.0 * (1.3 * k).sin(), 12.0 * (2.1 * k + 0.4).cos(), low);
+        let found = robot.singularity(&pose, "+++", None).unwrap();
+        // On a line through the plane the twins do meet; far from it nothing is singular.
+        if found.sigma_min < 1e-3 {
+            continue;
+        }
+        assert_eq!(found.kind, SingularityKind::Regular, "{pose:?}");
+        let inputs = robot.inputs_of(&robot.working_mode(&pose, "+++").unwrap().joints);
+        let modes = robot.forward(&inputs).unwrap().modes;
+        let beside: Vec<_> = modes.iter().filter(|m| (m.mode.pose.phi - low).abs() < 1e-6).collect();
+        assert!(beside.iter().all(|m| m.mode.multiplicity == 1 && m.mode.det_a.abs() > 1e-6), "{beside:?}");
+        twins += usize::from(beside.len() == 2 && beside[0].mode.det_a * beside[1].mode.det_a < 0.0);
+    }
+    assert!(twins > 20, "{twins}");
+}
+
 #[test]
 fn degrees_of_the_exact_curves() {
     for (family, degree) in [("3-R_P_R", 2), ("3-R_R_R", 2), ("3-_P_RR", 20)] {
