@@ -166,15 +166,66 @@ fn files_and_inputs() {
 }
 
 #[test]
+fn files_of_another_kind_say_which_command_takes_them() {
+    let sound = HEAD.to_owned() + &LEG.repeat(3);
+    refused(
+        "kind-1",
+        "t.json",
+        triad("PR", "PR"),
+        &["forward", "t.json", "--inputs=1,2,3"],
+        &["schema", "assur triad"],
+    );
+    refused("kind-2", "m.toml", &sound, &["triad", "m.toml"], &["schema", "assur forward", "assur/triad/1"]);
+}
+
+#[test]
+fn families_that_no_inputs_determine_are_refused() {
+    let sound = HEAD.to_owned() + &LEG.repeat(3);
+    for family in ["3-PP_R_", "3-_R_PP", "3-P_R_P", "PP_R_,P_R_P,_R_RR"] {
+        let words = [family, "legs 1 and 2", "PP"];
+        refused("undetermined", "m.toml", &sound, &["new", family, "--output", "new.toml"], &words);
+    }
+}
+
+#[test]
+fn questions_about_motion() {
+    let sound = HEAD.to_owned() + &LEG.repeat(3);
+    let cases: [(&[&str], &[&str]); 11] = [
+        (&["inverse", "m.toml", "--pose=1,inf,0"], &["pose", "inf", "finite"]),
+        (&["inverse", "m.toml", "--pose=1,2,0,4"], &["pose", "4 given", "must be 3"]),
+        (&["velocity", "m.toml", "--pose=1,2,nan", "--mode=+++"], &["pose", "NaN"]),
+        (&["velocity", "m.toml", "--pose=1,2,0", "--mode=++++"], &["\"++++\"", "3 signs"]),
+        (&["velocity", "m.toml", "--pose=1,2,0", "--mode=+0+"], &["\"+0+\"", "3 signs"]),
+        (&["velocity", "m.toml", "--pose=1,2,0", "--mode=+++", "--rates=1,2,3,4"], &["rates", "4 given"]),
+        (&["velocity", "m.toml", "--pose=1,2,0", "--mode=+++", "--rates=1,2,inf"], &["rates", "inf"]),
+        (&["velocity", "m.toml", "--pose=1,2,0", "--mode=+++", "--accelerations=1"], &["accelerations", "1 given"]),
+        (&["velocity", "m.toml", "--pose=1,2,0", "--mode=+++", "--wrench=1,2"], &["wrench", "2 given"]),
+        (&["singularities", "m.toml", "--phi=nan", "--svg", "out.svg"], &["phi", "NaN"]),
+        (&["singularities", "m.toml", "--phi=0", "--mode=+", "--svg", "out.svg"], &["\"+\"", "3 signs"]),
+    ];
+    for (number, (arguments, words)) in cases.into_iter().enumerate() {
+        refused(&format!("motion-{number}"), "m.toml", &sound, arguments, &[words, &["m.toml"]].concat());
+    }
+    // A picture that cannot be written leaves nothing else behind either.
+    let map = ["singularities", "m.toml", "--phi=0.1", "--no-polynomial", "--mode=+++", "--map", "dexterity"];
+    let files = ["--csv", "map.csv", "--svg", "no/where.svg"];
+    refused("half", "m.toml", &sound, &[&map[..], &files[..]].concat(), &["no/where.svg", "cannot be written"]);
+}
+
+#[test]
 fn wrong_usage() {
     let sound = HEAD.to_owned() + &LEG.repeat(3);
-    let cases: [&[&str]; 6] = [
+    let cases: [&[&str]; 10] = [
         &["forward", "m.toml"],
         &["forward", "m.toml", "--inputs=1,x,3"],
         &["forward", "m.toml", "--inputs=1,2,3", "--sgv", "a.svg"],
         &["forwards"],
         &["check"],
         &["derive"],
+        &["velocity", "m.toml", "--pose=1,2,0", "--rate=1,2,3"],
+        &["path", "m.toml", "--trough", "p.csv"],
+        &["singularities", "m.toml", "--phi=0", "--map", "beauty"],
+        &["inverse", "m.toml", "--pose=a,b,c"],
     ];
     for (number, arguments) in cases.into_iter().enumerate() {
         let (status, complaint) = ask(&format!("usage-{number}"), "m.toml", sound.as_bytes(), arguments);

@@ -153,6 +153,84 @@ fn limits_are_reported_where_they_are_crossed() {
     assert!(matches!(kind(1), PathEventKind::Limit { leaves: false, .. }));
 }
 
+/// Between two rows the angle of strut 1 rises to a maximum and falls again: `20 r cos = r² + 51` for struts r and 7 on pivots 10 apart.
+#[test]
+fn limits_crossed_inside_a_stretch_are_reported_out_and_in() {
+    let mut robot = two_circles();
+    let path = [vec![6.5, 7.0, 8.0], vec![8.0, 7.0, 8.0]];
+    let top = (51f64.sqrt() / 10.0).acos();
+    let mode = robot.forward(&path[0]).unwrap().modes.into_iter().find(|mode| mode.mode.pose.y > 0.0).unwrap();
+    for depth in [1e-3, 1e-6, 1e-9] {
+        let bound = top - depth;
+        let (half, cosine) = ((100.0 * bound.cos().powi(2) - 51.0).sqrt(), 10.0 * bound.cos());
+        robot.legs[0].limits[0] = Some([-1.0, bound]);
+        let answer = follow(&robot, &path, Some(mode.mode.pose));
+        let wanted = [(cosine - half, true), (cosine + half, false)];
+        assert_eq!((answer.complete, answer.events.len()), (true, wanted.len()), "{depth}: {:?}", answer.events);
+        for (event, (r, way)) in answer.events.iter().zip(wanted) {
+            let PathEventKind::Limit { violation, leaves } = event.kind else { panic!("{event:?}") };
+            assert_eq!((violation.leg, violation.joint, leaves), (1, 1, way));
+            // Near its top the angle fixes r to the square root of rounding only.
+            let certain = 1e-14 / depth.sqrt() * 10.0 + 1e-13;
+            assert!((event.inputs[0] - r).abs() < certain, "{depth}: {} {r}", event.inputs[0]);
+            assert!((event.at - 1.0 - (r - 6.5) / 1.5).abs() < certain && (violation.value - bound).abs() < 1e-12);
+        }
+    }
+    // Just above the top nothing is crossed.
+    robot.legs[0].limits[0] = Some([-1.0, top + 1e-9]);
+    assert!(follow(&robot, &path, Some(mode.mode.pose)).events.is_empty());
+}
+
+#[test]
+fn a_narrow_range_and_a_narrow_gap_are_not_stepped_over() {
+    let mut robot = shipped();
+    let path = [vec![14.98, 15.3, 12.0], vec![14.98, 15.4, 12.0]];
+    robot.legs[1].limits[1] = Some([15.35, 15.3501]);
+    let answer = follow(&robot, &path, None);
+    let at: Vec<f64> = answer.events.iter().map(|event| event.at).collect();
+    // Outside from the start, in, out.
+    assert_eq!(at.len(), 3, "{:?}", answer.events);
+    assert!((at[1] - 1.5).abs() < 1e-9 && (at[2] - 1.501).abs() < 1e-9, "{at:?}");
+    // A passive joint that may be anywhere but in a narrow gap.
+    robot.legs[1].limits[1] = None;
+    let plain = follow(&robot, &path, None);
+    let angle = |row: usize| {
+        let modes = robot.forward(&path[row]).unwrap().modes;
+        let pose = plain.rows[row].pose;
+        modes.iter().find(|m| (m.mode.pose.x - pose.x).abs() < 1e-9).unwrap().joints[0][0]
+    };
+    let (middle, width) = ((angle(0) + angle(1)) / 2.0, (angle(1) - angle(0)).abs() * 1e-3);
+    robot.legs[0].limits[0] = Some([middle + width, middle - width]);
+    let answer = follow(&robot, &path, None);
+    assert_eq!(answer.events.len(), 2, "{:?}", answer.events);
+    assert!(answer.events.iter().all(|event| (event.at - 1.5).abs() < 0.05));
+}
+
+#[test]
+fn a_self_motion_is_called_one() {
+    // Congruent triangles: equal struts leave a parallelogram that moves.
+    let corners = [[0.0, 0.0], [4.0, 0.0], [1.0, 3.0]];
+    let robot = Manipulator::new("", corners.map(|a| Leg::rpr(a, a)).to_vec()).unwrap();
+    let settings = PathSettings::default();
+    let equal = vec![5.0; 3];
+    let on_it = Some(Pose::new(3.0, 4.0, 0.0));
+    let error = robot.follow(&[equal.clone(), equal.clone()], on_it, &settings).unwrap_err().to_string();
+    assert!(error.contains("self-motion") && error.contains("translation at phi = 0 rad"), "{error}");
+    assert!(error.contains("through the start [3, 4, 0]"), "{error}");
+    // Two struts bring the platform's origin onto the base pivot of the third, about which the platform then turns.
+    let legs =
+        vec![Leg::rpr([0.0, 0.0], [0.0, 0.0]), Leg::rpr([6.0, 0.0], [0.0, 0.0]), Leg::rpr([3.0, 4.0], [2.0, 0.0])];
+    let robot = Manipulator::new("", legs).unwrap();
+    for strokes in [vec![4.75, 5.25], vec![4.75, 5.0, 5.25], vec![5.5, 5.25, 4.75]] {
+        let path: Vec<Vec<f64>> = strokes.iter().map(|q| vec![*q, 5.0, 2.0]).collect();
+        let upper = robot.forward(&path[0]).unwrap().modes.into_iter().find(|mode| mode.mode.pose.y > 0.0).unwrap();
+        let answer = follow(&robot, &path, Some(upper.mode.pose));
+        let event = answer.events.last().unwrap();
+        assert!(!answer.complete && event.kind == (PathEventKind::SelfMotion { phi: None }), "{event:?}");
+        assert_eq!(event.inputs, [5.0, 5.0, 2.0], "{event:?}");
+    }
+}
+
 #[test]
 fn what_cannot_be_followed_is_refused() {
     let robot = shipped();

@@ -171,6 +171,82 @@ fn crossings_of_every_family_are_of_type_2_and_on_the_exact_curve() {
     assert!(located > 100, "{located}");
 }
 
+/// Drawn curves and maps keep to where every leg is within its limits, and the window to where they are.
+#[test]
+fn loci_and_maps_are_clipped_to_limits() {
+    let (mut robot, _) = Manipulator::of_family("3-RRR").unwrap();
+    let (phi, signs) = (0.3, "+++".to_owned());
+    let mode = robot.working_mode(&Pose::new(5.5, 4.0, phi), &signs).unwrap();
+    let wide = robot.plane_window(phi);
+    let before = robot.trace_singularities(phi, &signs, &wide).unwrap();
+    for (leg, joints) in robot.legs.iter_mut().zip(&mode.joints) {
+        leg.limits[0] = Some([joints[0] - 0.5, joints[0] + 0.9]);
+    }
+    let window = robot.plane_window(phi);
+    let extent = |w: &assur::PlaneWindow| (w.high - w.low).product();
+    assert!(extent(&window) < extent(&wide));
+    let pieces = robot.trace_singularities(phi, &signs, &wide).unwrap();
+    assert!(!before.is_empty() && pieces.len() < before.len());
+    let inside = |p: Vector2<f64>, signs: &str| {
+        let mode = robot.working_mode(&Pose::new(p.x, p.y, phi), signs);
+        mode.is_ok_and(|mode| mode.violations.is_empty())
+    };
+    assert!(pieces.iter().all(|piece| inside((piece[0] + piece[1]) / 2.0, &signs)));
+    let map = robot.plane_map(assur::MapQuantity::Dexterity, phi, &signs, None, &wide, [30, 30]).unwrap();
+    let known = map.values.iter().enumerate().filter(|(_, value)| value.is_some());
+    assert!(known.clone().count() > 0 && known.count() < 900);
+    for (index, value) in map.values.iter().enumerate() {
+        assert_eq!(value.is_some(), inside(map.at(index % 30, index / 30), &signs));
+    }
+    // Edges of a leg's reach are drawn only where some mode reaches, within the limits, beside them.
+    for locus in robot.leg_loci(phi).unwrap() {
+        for [p, q] in robot.trace_leg_locus(&locus, phi, &wide) {
+            let (middle, along) = ((p + q) / 2.0, (q - p).normalize());
+            let side = Vector2::new(-along.y, along.x) * 0.01;
+            let reached = |p: Vector2<f64>| robot.mode_names().iter().any(|signs| inside(p, signs));
+            assert!(reached(middle + side) || reached(middle - side) || reached(middle), "{middle}");
+        }
+    }
+}
+
+/// Where the linear rows are parallel, near phi = 0.884 for the shipped 3-RPR, T has a double root of two poses: twins, not a meeting of modes.
+#[test]
+fn twin_poses_are_not_called_singular() {
+    let (sin, cos) = 0.8822f64.sin_cos();
+    let (base, platform) = ([[15.91, 0.0], [0.0, 10.0]], [[17.045, 0.0], [20.839 * cos, 20.839 * sin]]);
+    let legs = vec![Leg::rpr([0.0; 2], [0.0; 2]), Leg::rpr(base[0], platform[0]), Leg::rpr(base[1], platform[1])];
+    let robot = Manipulator::new("3-RPR", legs).unwrap();
+    let parallel = |phi: f64| {
+        let turn = |p: [f64; 2]| Pose::new(0.0, 0.0, phi).place(Vector2::from(p));
+        let [g, h] = [0, 1].map(|k: usize| turn(platform[k]) - Vector2::from(base[k]));
+        g.x * h.y - g.y * h.x
+    };
+    let (mut low, mut high) = (0.85, 0.92);
+    assert!(parallel(low) * parallel(high) < 0.0);
+    for _ in 0..60 {
+        let middle = (low + high) / 2.0;
+        if parallel(low) * parallel(middle) > 0.0 { low = middle } else { high = middle }
+    }
+    assert!((low - 0.884).abs() < 1e-3, "{low}");
+    let mut twins = 0;
+    for k in 0..40 {
+        let k = f64::from(k);
+        let pose = Pose::new(12.0 * (1.3 * k).sin(), 12.0 * (2.1 * k + 0.4).cos(), low);
+        let found = robot.singularity(&pose, "+++", None).unwrap();
+        // On a line through the plane the twins do meet; far from it nothing is singular.
+        if found.sigma_min < 1e-3 {
+            continue;
+        }
+        assert_eq!(found.kind, SingularityKind::Regular, "{pose:?}");
+        let inputs = robot.inputs_of(&robot.working_mode(&pose, "+++").unwrap().joints);
+        let modes = robot.forward(&inputs).unwrap().modes;
+        let beside: Vec<_> = modes.iter().filter(|m| (m.mode.pose.phi - low).abs() < 1e-6).collect();
+        assert!(beside.iter().all(|m| m.mode.multiplicity == 1 && m.mode.det_a.abs() > 1e-6), "{beside:?}");
+        twins += usize::from(beside.len() == 2 && beside[0].mode.det_a * beside[1].mode.det_a < 0.0);
+    }
+    assert!(twins > 20, "{twins}");
+}
+
 #[test]
 fn degrees_of_the_exact_curves() {
     for (family, degree) in [("3-R_P_R", 2), ("3-R_R_R", 2), ("3-_P_RR", 20)] {

@@ -196,7 +196,7 @@ fn order_of_legs_size_and_a_far_origin_change_nothing() {
 
 #[test]
 fn what_the_fast_route_cannot_decide_the_reference_route_answers() {
-    let [first, second, third] = golden_six();
+    let [first, second, _] = golden_six();
     let at = |x, y| Vector2::new(x, y);
     // A leg of length zero, a PP leg, a platform congruent to the base (a curve of poses), numbers out of range.
     let mut random = Random::new(9);
@@ -226,7 +226,7 @@ fn what_the_fast_route_cannot_decide_the_reference_route_answers() {
 #[test]
 fn half_turns_and_right_angles_are_ordinary() {
     // Modes planted exactly at multiples of a right angle.
-    for quarter in 0..4 {
+    for quarter in 0..4u32 {
         for name in NAMES {
             let phi = f64::from(quarter) * std::f64::consts::FRAC_PI_2;
             let mut random = Random::new(5 + u64::from(quarter));

@@ -28,9 +28,9 @@ impl<const N: usize> Lanes<N> {
     /// `f` of two, lane by lane.
     #[inline(always)]
     pub fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
-        let mut out = [0.0; N];
-        for i in 0..N {
-            out[i] = f(self.0[i], other.0[i]);
+        let mut out = self.0;
+        for (x, y) in out.iter_mut().zip(other.0) {
+            *x = f(*x, y);
         }
         Self(out)
     }
@@ -38,9 +38,9 @@ impl<const N: usize> Lanes<N> {
     /// `f`, lane by lane.
     #[inline(always)]
     pub fn map(self, f: impl Fn(f64) -> f64) -> Self {
-        let mut out = [0.0; N];
-        for i in 0..N {
-            out[i] = f(self.0[i]);
+        let mut out = self.0;
+        for x in &mut out {
+            *x = f(*x);
         }
         Self(out)
     }

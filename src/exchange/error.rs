@@ -127,6 +127,16 @@ pub enum FieldProblem {
         /// The nearest of them.
         nearest: Option<String>,
     },
+    /// A file of another kind.
+    #[error("\"{found}\" is a file for `assur {command}`; must be \"{expected}\"")]
+    OtherKind {
+        /// What the file calls itself.
+        found: String,
+        /// The command that takes it.
+        command: &'static str,
+        /// What it must call itself here.
+        expected: &'static str,
+    },
     /// Two fields that say the same thing.
     #[error("given both as {first} and as {second}, must be one of them")]
     Both {

@@ -23,8 +23,13 @@ pub struct SingularitiesReport {
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
 struct Type2Report {
-    /// `null` where the legs have no exact curve (several actuators on one).
+    /// `null` where there is none, with the reason beside it.
     polynomial: Option<CurveReport>,
+    /// Why there is no polynomial.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<String>,
+    /// What the pieces are clipped to.
+    clipped_to: &'static str,
     modes: Vec<ModeReport>,
 }
 
@@ -71,10 +76,10 @@ struct MapReport {
 }
 
 impl SingularitiesReport {
-    /// The report on the curves, and on a map if one was made.
+    /// The report on the curves, and on a map if one was made. `locus`: the exact curve, or why there is none.
     pub fn new(
         phi: f64,
-        locus: Option<&SingularityLocus>,
+        locus: Result<&SingularityLocus, String>,
         modes: &TracedModes,
         legs: &[LegLocus],
         map: Option<&PlaneMap>,
@@ -114,7 +119,12 @@ impl SingularitiesReport {
         Self {
             schema: "assur/singularities/1",
             phi,
-            type_2: Type2Report { polynomial: locus.map(curve), modes: modes.iter().map(mode).collect() },
+            type_2: Type2Report {
+                reason: locus.as_ref().err().cloned(),
+                polynomial: locus.ok().map(curve),
+                clipped_to: "the reach of all legs within their limits",
+                modes: modes.iter().map(mode).collect(),
+            },
             type_1: legs.iter().map(leg).collect(),
             map: map.map(mapped),
         }

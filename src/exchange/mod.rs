@@ -37,7 +37,7 @@ pub use claims::{ClaimReport, ClaimedPoses, MissingReport, Subject, VerifyReport
 pub use error::{FieldProblem, FileError, Format};
 pub use locus_report::{SingularitiesReport, TracedModes, map_csv};
 pub use model::{AngleUnit, ModelFile};
-pub use motion_report::{InverseReport, Motion, VelocityReport};
+pub use motion_report::{InverseReport, Motion, ROW_SCALING, SINGULAR_VALUE_SCALING, VelocityReport};
 pub use path_file::{PathFileError, PathReport, parse_path, read_path};
 pub use report::{CertificateReport, ForwardReport, ModeReport, SubjectReport};
 pub use triad_file::{DyadEntry, TriadFile, read_triad};

@@ -102,6 +102,7 @@ impl ModelFile {
     /// ```
     pub fn parse(text: &str, file: &str) -> Result<Self, FileError> {
         let tree = Tree::parse(text, file)?;
+        Field::root(&tree, file).expect_kind(SCHEMA)?;
         let root = Field::root(&tree, file).table(&["schema", "name", "angle_unit", "reference", "leg"])?;
         root.need("schema", &format!("\"{SCHEMA}\""))?.one_of(&[SCHEMA])?;
         let name = root.get("name").map_or(Ok(""), |field| field.text("a text"))?;

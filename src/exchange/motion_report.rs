@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::report::ViolationReport;
 use crate::linkage::Pose;
-use crate::manipulator::{Reading, SingularMatrix, Singularity, Velocity, WorkingModes};
+use crate::manipulator::{ModeChoice, Reading, SingularMatrix, Singularity, Velocity, WorkingModes};
 
 /// Every working mode of a pose.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -86,6 +86,8 @@ pub struct VelocityReport {
     schema: &'static str,
     pose: [f64; 3],
     signs: String,
+    /// Why this mode: `named`, `the only one`, `the only one within the limits`.
+    mode_choice: &'static str,
     joints: Vec<[f64; 3]>,
     /// `A`, row by row.
     pub pose_matrix: [[f64; 3]; 3],
@@ -103,8 +105,11 @@ pub struct VelocityReport {
     free_motion: Option<[f64; 3]>,
     sigma_min: f64,
     sigma_min_input: f64,
+    singular_values: [f64; 3],
+    scaled_pose_matrix: Vec<[f64; 3]>,
     dexterity: f64,
     characteristic_length: f64,
+    scaling: ScalingReport,
     #[serde(skip_serializing_if = "Option::is_none")]
     rates: Option<BothWays>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -112,6 +117,24 @@ pub struct VelocityReport {
     #[serde(skip_serializing_if = "Option::is_none")]
     wrench: Option<WrenchReport>,
 }
+
+/// What each printed number is scaled by.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct ScalingReport {
+    pose_matrix: &'static str,
+    singular_values: &'static str,
+    sigma_min_input: &'static str,
+    dexterity: &'static str,
+}
+
+/// How the rows of the two matrices are scaled.
+pub const ROW_SCALING: &str =
+    "force: distance of the idle pivots (RR), 1 (PR, RP), 0 with the moment the sine between the sliders (PP)";
+/// What the singular values are of.
+pub const SINGULAR_VALUE_SCALING: &str =
+    "of scaled_pose_matrix: A with moments over the characteristic length, each row then divided by its own length";
+const INPUT_SCALING: &str = "of B with rows divided as those of A, columns by the sizes of the actuated screws";
+const DEXTERITY_SCALING: &str = "smallest over largest singular value of inverse(B) A diag(1, 1, 1/characteristic length), inputs in their own units";
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
 struct ReadingReport {
@@ -154,7 +177,12 @@ impl From<Result<Vector3<f64>, SingularMatrix>> for Answer {
 
 impl VelocityReport {
     /// The report on a pose in motion.
-    pub fn new(velocity: &Velocity, signs: &str, singularity: &Singularity, motion: &Motion) -> Self {
+    pub fn new(
+        velocity: &Velocity,
+        (signs, choice): (&str, ModeChoice),
+        singularity: &Singularity,
+        motion: &Motion,
+    ) -> Self {
         let rows = |m: &Matrix3<f64>| std::array::from_fn(|r| std::array::from_fn(|c| m[(r, c)]));
         let reading = |reading: Reading| match reading {
             Reading::Meet { point } => ReadingReport { kind: "meet", point: Some(point.into()), direction: None },
@@ -184,11 +212,12 @@ impl VelocityReport {
             schema: "assur/velocity/1",
             pose: numbers(&velocity.pose),
             signs: signs.to_owned(),
+            mode_choice: choice.name(),
             joints: velocity.joints.clone(),
             pose_matrix: rows(&velocity.pose_matrix),
             input_matrix: rows(&velocity.input_matrix),
             row_legs: velocity.row_legs,
-            row_scaling: "force: distance of the idle pivots (RR), 1 (PR, RP), 0 with the moment the sine between the sliders (PP)",
+            row_scaling: ROW_SCALING,
             det_pose: velocity.pose_matrix.determinant(),
             det_input: velocity.input_matrix.determinant(),
             singularity: singularity.kind.name(),
@@ -198,8 +227,20 @@ impl VelocityReport {
             free_motion: singularity.free_motion.map(Into::into),
             sigma_min: singularity.sigma_min,
             sigma_min_input: singularity.sigma_min_input,
+            singular_values: singularity.singular_values,
+            scaled_pose_matrix: singularity
+                .scaled_pose_matrix
+                .row_iter()
+                .map(|row| std::array::from_fn(|c| row[c]))
+                .collect(),
             dexterity: singularity.dexterity,
             characteristic_length: singularity.characteristic_length,
+            scaling: ScalingReport {
+                pose_matrix: ROW_SCALING,
+                singular_values: SINGULAR_VALUE_SCALING,
+                sigma_min_input: INPUT_SCALING,
+                dexterity: DEXTERITY_SCALING,
+            },
             rates: motion.rates.map(rates),
             accelerations: motion.accelerations.map(accelerations),
             wrench: motion.wrench.map(wrench),

@@ -144,6 +144,15 @@ struct EventReport {
     violation: Option<ViolationReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
     leaves: Option<bool>,
+    /// Where the path stops on a curve of poses.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    self_motion: Option<CurveOfPoses>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct CurveOfPoses {
+    /// The orientation of a translation; `null` where the platform turns.
+    phi: Option<f64>,
 }
 
 impl From<&PathRow> for RowReport {
@@ -158,8 +167,12 @@ impl From<&PathEvent> for EventReport {
             PathEventKind::Limit { violation, leaves } => (Some(ViolationReport::from(violation)), Some(*leaves)),
             _ => (None, None),
         };
+        let self_motion = match event.kind {
+            PathEventKind::SelfMotion { phi } => Some(CurveOfPoses { phi }),
+            _ => None,
+        };
         let (inputs, pose) = (event.inputs.clone(), numbers(&event.pose));
-        Self { at: event.at, kind: event.kind.name(), inputs, pose, violation, leaves }
+        Self { at: event.at, kind: event.kind.name(), inputs, pose, violation, leaves, self_motion }
     }
 }
 

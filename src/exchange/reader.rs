@@ -5,6 +5,10 @@ use nalgebra::Vector2;
 use super::error::{FieldProblem, FileError, nearest};
 use super::tree::Tree;
 
+/// What files call themselves, with the command that takes each.
+const KINDS: [(&str, &str); 3] =
+    [("assur/manipulator/1", "forward"), ("assur/triad/1", "triad"), ("assur/forward/1", "verify")];
+
 /// A value and where it stands.
 #[derive(Clone)]
 pub(super) struct Field<'a> {
@@ -54,6 +58,20 @@ impl<'a> Field<'a> {
             }
         }
         Ok(table)
+    }
+
+    /// Refuses a file whose `schema` is that of another command, before its keys are found strange.
+    pub(super) fn expect_kind(&self, expected: &'static str) -> Result<(), FileError> {
+        let Tree::Table(entries) = self.tree else { return Ok(()) };
+        let schema = entries.iter().find(|(key, _)| key == "schema");
+        let Some((_, Tree::Text(found))) = schema else { return Ok(()) };
+        match KINDS.iter().find(|(name, _)| name == found && *name != expected) {
+            Some((_, command)) => {
+                let place = Self { place: "schema".to_owned(), ..self.clone() };
+                Err(place.error(FieldProblem::OtherKind { found: found.clone(), command, expected }))
+            }
+            None => Ok(()),
+        }
     }
 
     /// The table, whatever keys it has.

@@ -88,6 +88,7 @@ impl TriadFile {
     /// ```
     pub fn parse(text: &str, file: &str) -> Result<Triad, FileError> {
         let tree = Tree::parse(text, file)?;
+        Field::root(&tree, file).expect_kind(SCHEMA)?;
         let root = Field::root(&tree, file).table(&["schema", "name", "legs"])?;
         root.need("schema", &format!("\"{SCHEMA}\""))?.one_of(&[SCHEMA])?;
         let legs = root.need("legs", "a list of three legs")?;

@@ -19,6 +19,7 @@ use super::assemblies::{
     Assemblies, AssemblyMode, ComplexMode, Limit, Rejection, SelfMotion, Special, Status, ThetaPolynomial,
 };
 use super::constraint::reference_consistency;
+use super::det_a::{parity, points, scaled_determinant};
 use super::fibre::{Fibre, Part, parts, parts_alike};
 use super::given_orientation::{Given, assemble_two, exact_rotation, same_orientation};
 use super::group::{Dyad, Pose, Triad};
@@ -28,7 +29,7 @@ use super::place::{Placed, Solution, place, place_pinned};
 use super::special::{near_misses, special_shapes};
 use super::triad::{LegNumbers, leg_row, triad_rows};
 use super::vanishing::motions;
-use super::verify::{Placement, complex_residual, determinant, pinned_determinant, residual, size};
+use super::verify::{Placement, complex_residual, determinant, residual, size};
 use crate::algebra::{Gaussian, Integer, Ring, Trig};
 use crate::certify::Verdict;
 use crate::roots::{NotLocated, scaled};
@@ -82,7 +83,7 @@ impl Triad {
 impl PinnedDyad {
     /// Every way to put the pinned platform together: two, one with a PP leg, or none.
     ///
-    /// Units, frame, proof and cost as in [`Triad::assemble`]. `det_a` is the moment arm of the leg about the pin.
+    /// Units, frame, proof and cost as in [`Triad::assemble`]. `det_a` is that of [`PinnedDyad::det_a`].
     pub fn assemble(&self) -> Assemblies {
         let legs = self.as_legs();
         let numbers = TriadNumbers::of(&legs);
@@ -98,16 +99,6 @@ impl PinnedDyad {
 
     fn leg_is_point(&self) -> bool {
         matches!(self.leg(), Dyad::RR { length: 0.0, .. })
-    }
-}
-
-/// Base and platform point of a leg as complex numbers; the origin for a PP leg, which has none.
-fn points(leg: &Dyad) -> (Complex64, Complex64) {
-    match leg {
-        Dyad::RR { a, b, .. } | Dyad::PR { a, b, .. } | Dyad::RP { a, b, .. } => {
-            (Complex64::new(a.x, a.y), Complex64::new(b.x, b.y))
-        }
-        Dyad::PP { .. } => Default::default(),
     }
 }
 
@@ -319,13 +310,7 @@ impl<'a> Gathering<'a> {
         // The pose's own rounded angle turns the reference point, so that the rounding of phi does not swing the platform about a
         // far origin.
         let origin = self.a0 + self.length(solution.u[0]) - Complex64::from_polar(1.0, phi) * self.b0;
-        // A PP leg restrains the rotation by a pure moment: then no length is left in the determinant.
-        let (det_a, without_pp) = if self.pinned {
-            (pinned_determinant(self.legs, at), self.legs.len() == 2)
-        } else {
-            (self.parity * determinant(self.legs, at), self.legs.len() == 3)
-        };
-        let det_a = if without_pp { det_a / scale } else { det_a };
+        let det_a = scaled_determinant(self.legs, at, self.pinned, self.parity, self.size);
         let sound = residual <= CLOSURE_GUARD && origin.is_finite();
         if sound {
             let pose = Pose::new(origin.re, origin.im, phi);
@@ -391,14 +376,6 @@ impl Assemblies {
             self.limit = Some(limit);
         }
     }
-}
-
-/// The sign of the order in which legs are solved, PP legs last, against the order given.
-fn parity(legs: &[Dyad], order: &[usize]) -> f64 {
-    let last = (0..legs.len()).filter(|i| !order.contains(i));
-    let order: Vec<usize> = order.iter().copied().chain(last).collect();
-    let exchanges = (0..order.len()).map(|i| order[..i].iter().filter(|&&before| before > order[i]).count());
-    if exchanges.sum::<usize>() % 2 == 0 { 1.0 } else { -1.0 }
 }
 
 /// The angle with -pi written as pi.

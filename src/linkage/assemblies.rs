@@ -53,7 +53,7 @@ pub struct AssemblyMode {
     /// Largest closure error of the assembled group over its largest length, measured on the geometry; where the platform stands further away than that, over
     /// its distance.
     pub residual: f64,
-    /// Sign and size of det A: the determinant of the three leg normals as wrenches, scaled to unit forces and the group's size.
+    /// det A, without unit: the determinant of the legs' unit wrenches in their order, moments over the group's size; see [`super::Triad::det_a`].
     pub det_a: f64,
     /// Whether a proof was asked for and what it came to.
     pub proof: Verdict,

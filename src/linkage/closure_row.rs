@@ -105,7 +105,7 @@ pub(super) fn proved_radii(
     used: usize,
 ) -> [L; 3] {
     let rows = closure_rows(legs, u, c, s);
-    let y = inverse(&rows).map(|row| row);
+    let y = inverse(&rows);
     // What rounding does to values and derivatives, for all lanes at once.
     let largest = |x: L| x.0[..used].iter().fold(0.0, |m: f64, x| if x.abs() > m { x.abs() } else { m });
     let (ux, uy) = (largest(u.re), largest(u.im));
@@ -130,8 +130,9 @@ pub(super) fn proved_radii(
             kappa[i] = kappa[i] + size * L::all(slope[k]);
             lambda[i] = lambda[i] + size * L::all(curvature[k]);
         }
-        for j in 0..3 {
-            let product = y[i][0] * matrix[0][j] + y[i][1] * matrix[1][j] + y[i][2] * matrix[2][j];
+        let [p, q, r] = &matrix;
+        for (j, ((p, q), r)) in p.iter().zip(q).zip(r).enumerate() {
+            let product = y[i][0] * *p + y[i][1] * *q + y[i][2] * *r;
             let identity = if i == j { 1.0 } else { 0.0 };
             kappa[i] = kappa[i] + (product - L::all(identity)).map(f64::abs);
         }

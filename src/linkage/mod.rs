@@ -8,6 +8,7 @@ mod assemblies;
 mod certificate;
 mod closure_row;
 mod constraint;
+mod det_a;
 mod dyad;
 mod exact_box;
 mod fibre;

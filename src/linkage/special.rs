@@ -3,10 +3,25 @@
 use dashu_int::ops::BitTest;
 
 use super::assemblies::Special;
-use super::group::Dyad;
+use super::group::{Dyad, Triad};
 use super::numbers::TriadNumbers;
 use super::triad::LegNumbers;
 use crate::algebra::{Domain, Gaussian, Integer, ratio_to_f64, scale_by_power_of_two};
+
+impl Triad {
+    /// The special shapes of the triad itself, decided exactly: what [`Triad::assemble`] names before it looks for poses.
+    ///
+    /// ```
+    /// use assur::{Dyad, Special, Triad, nalgebra::Vector2};
+    /// let leg = |x: f64| Dyad::RR { a: Vector2::new(x, 0.0), b: Vector2::new(2.0 * x, 1.0), length: 3.0 };
+    /// let shapes = Triad::new([leg(0.0), leg(1.0), leg(4.0)])?.special_shapes();
+    /// assert_eq!(shapes, [Special::SimilarPlatforms, Special::CollinearBase, Special::CollinearPlatform]);
+    /// # Ok::<(), assur::TriadError>(())
+    /// ```
+    pub fn special_shapes(&self) -> Vec<Special> {
+        special_shapes(self.legs(), &TriadNumbers::of(self.legs()))
+    }
+}
 
 /// The special shapes of a triad, in no order, each once.
 pub(super) fn special_shapes(legs: &[Dyad], numbers: &TriadNumbers) -> Vec<Special> {

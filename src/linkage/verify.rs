@@ -165,7 +165,7 @@ mod tests {
 
     fn square() -> [LegNumbers<f64>; 3] {
         let point = |x: f64, y: f64| Gaussian::new(x, y);
-        let leg = |p: Gaussian<f64>, length| LegNumbers::Circle { alpha: p.clone(), beta: p, length };
+        let leg = |p: Gaussian<f64>, length| LegNumbers::Circle { alpha: p, beta: p, length };
         [leg(point(0.0, 0.0), 1.0), leg(point(1.0, 0.0), 1.0), leg(point(0.0, 1.0), 1.0)]
     }
 

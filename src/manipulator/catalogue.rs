@@ -10,6 +10,7 @@ use nalgebra::Vector2;
 use thiserror::Error;
 
 use super::describe::{JointKind, JointsError, Leg, Manipulator, Placement};
+use super::lock::LockError;
 use crate::linkage::Pose;
 
 /// Base points of the legs: a scalene triangle not similar to the platform's, so that no family starts out degenerate.
@@ -26,7 +27,7 @@ const HOME: [f64; 3] = [5.5, 4.0, 0.3];
 const SECOND_SLIDER: f64 = FRAC_PI_2;
 
 /// Why a text names no family.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Debug, PartialEq, Error)]
 pub enum FamilyError {
     /// A leg type cannot be read.
     #[error(
@@ -44,6 +45,14 @@ pub enum FamilyError {
         /// The text found.
         family: String,
     },
+    /// The family exists, but three actuators do not determine the pose of any member.
+    #[error("family \"{family}\": {error}")]
+    Undetermined {
+        /// The text found.
+        family: String,
+        /// Why.
+        error: LockError,
+    },
     /// Three sliders leave a leg that cannot turn.
     #[error("family \"{family}\": a leg PPP never turns the platform")]
     NeverTurns {
@@ -59,7 +68,7 @@ impl Manipulator {
     /// `3-_R_RR`, `R_P_R,_P_RR,_R_RR`. Inputs: lengths, and angles in radians.
     ///
     /// # Errors
-    /// A text that names no family of three legs with one actuator each.
+    /// A text that names no family of three legs with one actuator each; a family whose members no inputs determine, such as two legs left with PP.
     ///
     /// ```
     /// use assur::Manipulator;
@@ -93,6 +102,7 @@ impl Manipulator {
         }
         let name = format!("A {} to start from", family.replace(',', ", "));
         let robot = Self { name, reference: Vector2::zeros(), legs };
+        robot.lock(&inputs).map_err(|error| FamilyError::Undetermined { family: family.to_owned(), error })?;
         Ok((robot, inputs))
     }
 }

@@ -1,13 +1,16 @@
 //! One assembly mode along a path of inputs: where it goes, where it meets another, which limits it crosses.
 //!
-//! The path runs straight from row to row. Each stretch of it is halved until the mode is shown to go on through it as the only pose in a ball
-//! ([`super::hold`]); so a jump to a neighbour, however near, is not a matter of step size. Every hundredth row is also compared with
+//! The path runs straight from row to row. Each stretch of it is halved until the mode is shown to go on through it as the only pose in a box
+//! ([`super::hold`], in interval arithmetic), and each end of it lies with a box of its own inside; so a jump to a neighbour, however near, is not a matter of step size. Every hundredth row is also compared with
 //! all modes of the complete solver. Where no stretch can be shown any more, the meeting of two modes is sought as a
 //! solution of `F = 0, det A = 0` in pose and path parameter together, regular where the modes meet like a parabola; if there is none,
 //! the path stops all the same and says so.
 //!
 //! An id is the number of the mode in [`Manipulator::forward`] at the first row, and belongs to the path: around a cusp a mode becomes another
-//! one without any singularity, so that no numbering of modes fits all inputs. What it cannot do: pass through a singularity.
+//! one without any singularity, so that no numbering of modes fits all inputs.
+//!
+//! **Limits** are watched inside stretches too ([`super::watch`]); that is measured, not proved. What it cannot do: pass through a singularity; watch the
+//! limits of a leg without actuator.
 
 use nalgebra::{Matrix4, Vector4};
 use thiserror::Error;
@@ -15,9 +18,8 @@ use thiserror::Error;
 use super::describe::Manipulator;
 use super::forward::Violation;
 use super::hold::Hold;
-use super::joints::{Joints, read_off};
-use super::lock::{LockError, LockedLeg};
-use crate::linkage::{Pose, Status};
+use super::lock::LockError;
+use crate::linkage::Pose;
 
 /// How a path is followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,7 +49,7 @@ pub struct PathRow {
     pub pose: Pose,
     /// The number of the mode at the path's start, from 1.
     pub id: usize,
-    /// Determinant of the legs' unit wrenches, moments in units of the characteristic length; keeps its sign along the path.
+    /// det A as [`super::LockedGroup::det_a`] has it, the number that [`Manipulator::forward`] reports for this mode; keeps its sign along the path.
     pub det_a: f64,
 }
 
@@ -56,7 +58,7 @@ pub struct PathRow {
 pub enum PathEventKind {
     /// The mode meets another and both end: the path stops here.
     Meeting,
-    /// A joint enters or leaves its range; the path goes on.
+    /// A joint enters or leaves its range; the path goes on. One that is outside in the first row leaves it there.
     Limit {
         /// The joint, its value and its range.
         violation: Violation,
@@ -65,15 +67,20 @@ pub enum PathEventKind {
     },
     /// The mode could not be shown to go on, nor to meet another: modes too near to tell apart, or a path along a singularity. The path stops here.
     Branch,
+    /// The inputs leave the platform a curve of poses through this one: the path stops here.
+    SelfMotion {
+        /// The orientation in which the platform translates, in radians; `None` where it turns as it moves.
+        phi: Option<f64>,
+    },
 }
 
 impl PathEventKind {
-    /// The name that reports use: `meeting`, `limit` or `branch`.
+    /// The name that reports use: `meeting`, `limit`, or `branch` where the path stops without a meeting of two modes.
     pub fn name(self) -> &'static str {
         match self {
             Self::Meeting => "meeting",
             Self::Limit { .. } => "limit",
-            Self::Branch => "branch",
+            Self::Branch | Self::SelfMotion { .. } => "branch",
         }
     }
 }
@@ -139,17 +146,36 @@ pub enum PathError {
     /// There is no mode to start from.
     #[error("row 1 has no assembly mode")]
     NoMode,
-    /// The first row leaves the platform mobile.
-    #[error("row 1 has a self-motion: its inputs do not determine the pose")]
-    SelfMotion,
+    /// The first row leaves the platform mobile, and no isolated mode is asked for.
+    #[error(
+        "row 1 has a self-motion: its inputs leave the platform a curve of poses{}{}; there is no mode to follow",
+        motion_text(.phi), start_text(.from)
+    )]
+    SelfMotion {
+        /// The orientation in which the platform translates, in radians; `None` where it turns as it moves.
+        phi: Option<f64>,
+        /// The start asked for, which lies on the curve.
+        from: Option<Pose>,
+    },
+}
+
+fn motion_text(phi: &Option<f64>) -> String {
+    match phi {
+        Some(phi) => format!(", a translation at phi = {phi} rad"),
+        None => " along which it turns".to_owned(),
+    }
+}
+
+fn start_text(from: &Option<Pose>) -> String {
+    from.map(|p| format!(", through the start [{}, {}, {}]", p.x, p.y, p.phi)).unwrap_or_default()
 }
 
 impl Manipulator {
     /// Follows one assembly mode along rows of inputs.
     ///
     /// **Shape**: rows as in [`Manipulator::forward`]; the mode nearest to `from`, or the first one. Limits do not stop a path, they are reported.
-    /// **Proof**: between rows the mode is shown to be the only pose in a ball around it, in `f64` arithmetic with a margin for rounding; it never jumps.
-    /// **Accuracy**: meetings to about 1e-12 of the inputs. **Cost**: some ten microseconds a row, more beside singularities.
+    /// **Proof**: between rows the mode is shown, in interval arithmetic, to be the only pose in a box around it; it never jumps. That limits are crossed nowhere
+    /// else is measured. **Accuracy**: meetings to about 1e-12 of the inputs, limits to rounding. **Cost**: some fifty microseconds a row, more beside singularities and where limits are watched.
     ///
     /// # Errors
     /// A row of the wrong count or not finite, by number; no mode to start from.
@@ -193,9 +219,15 @@ impl Manipulator {
         let first = path.first().ok_or(PathError::Empty)?;
         let scale = self.characteristic_length();
         let (id, pose) = free.start(first, from, settings, scale)?;
-        let mut walk = Walk { robot: self, free: &free, scale, settings, pose, violated: Vec::new() };
+        let mut walk = Walk { robot: self, free: &free, scale, settings, pose, spread: 0.0, violated: Vec::new() };
         walk.violated = walk.violations(first, &pose);
         let mut out = FollowedPath { rows: Vec::new(), events: Vec::new(), complete: false, closed_in: None };
+        out.events.extend(walk.violated.iter().map(|&violation| PathEvent {
+            at: 1.0,
+            kind: PathEventKind::Limit { violation, leaves: true },
+            inputs: first.clone(),
+            pose,
+        }));
         if walk.row(&mut out, 1, first, id).is_none() || free.number_of(first, &pose, scale).is_none() {
             out.events.push(PathEvent { at: 1.0, kind: PathEventKind::Meeting, inputs: first.clone(), pose });
             return Ok(out);
@@ -209,7 +241,8 @@ impl Manipulator {
             let lost = compared && free.number_of(&pair[1], &walk.pose, scale).is_none();
             if walk.row(&mut out, step, &pair[1], id).is_none() || lost {
                 let (inputs, pose) = (pair[1].clone(), walk.pose);
-                out.events.push(PathEvent { at: step as f64, kind: PathEventKind::Branch, inputs, pose });
+                let event = PathEvent { at: step as f64, kind: PathEventKind::Branch, inputs, pose };
+                out.events.push(walk.or_self_motion(event, Vec::new()));
                 return Ok(out);
             }
             progress(step);
@@ -230,8 +263,20 @@ impl Manipulator {
         scale: f64,
     ) -> Result<(usize, Pose), PathError> {
         let answer = self.forward(inputs).map_err(|error| PathError::Inputs { row: 1, error })?;
-        if answer.group.status == Status::SelfMotion && answer.modes.is_empty() {
-            return Err(PathError::SelfMotion);
+        let real = answer.group.self_motions.iter().find(|motion| motion.real);
+        if let Some(motion) = real {
+            // Poses on the curve solve every condition; those of isolated modes are told from it below.
+            let closes = |pose: &Pose| {
+                let hold = Hold::new(self, inputs, &vec![0.0; inputs.len()], scale);
+                hold.is_some_and(|hold| hold.values(pose).amax() < settings.start_tolerance)
+            };
+            let isolated = |pose: &Pose| {
+                answer.modes.iter().any(|mode| pose_distance(&mode.mode.pose, pose, scale) <= settings.start_tolerance)
+            };
+            let on_it = from.filter(|pose| closes(pose) && !isolated(pose));
+            if on_it.is_some() || answer.modes.is_empty() {
+                return Err(PathError::SelfMotion { phi: motion.phi, from: on_it });
+            }
         }
         let Some(from) = from else {
             return answer.modes.first().map(|mode| (1, mode.mode.pose)).ok_or(PathError::NoMode);
@@ -273,24 +318,46 @@ fn apart(p: &[f64], q: &[f64]) -> f64 {
     p.iter().zip(q).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
 }
 
-struct Walk<'a> {
-    robot: &'a Manipulator,
+pub(super) struct Walk<'a> {
+    pub robot: &'a Manipulator,
     /// The same without limits.
     free: &'a Manipulator,
     scale: f64,
     settings: &'a PathSettings,
     pose: Pose,
-    violated: Vec<Violation>,
+    /// How far from `pose`, in units of the scale and radians, the exact one may be.
+    spread: f64,
+    pub violated: Vec<Violation>,
+}
+
+/// A stretch through which the mode is shown to go on.
+pub(super) struct Shown {
+    /// Its middle, and the half width of the box around it that holds the mode.
+    pub centre: Pose,
+    pub radius: f64,
+    /// The pose at the end, and how far the exact one may be.
+    arrived: Pose,
+    spread: f64,
+}
+
+/// What is known of a stretch's limits: from where to where on the way between rows.
+pub(super) struct Stretch<'a> {
+    pub step: usize,
+    pub from: &'a [f64],
+    pub to: &'a [f64],
+    pub shown: &'a Shown,
+    /// The pose at its start.
+    pub begin: Pose,
 }
 
 impl Walk<'_> {
-    fn hold(&self, inputs: &[f64], half_width: &[f64]) -> Option<Hold> {
+    pub fn hold(&self, inputs: &[f64], half_width: &[f64]) -> Option<Hold> {
         Hold::new(self.free, inputs, half_width, self.scale)
     }
 
     /// Books the pose of a row; `None` where it is singular.
     fn row(&self, out: &mut FollowedPath, step: usize, inputs: &[f64], id: usize) -> Option<()> {
-        let det_a = self.hold(inputs, &vec![0.0; inputs.len()])?.det_a(&self.pose);
+        let det_a = self.free.lock(inputs).ok()?.det_a(&self.pose);
         out.rows.push(PathRow { step, inputs: inputs.to_vec(), pose: self.pose, id, det_a });
         (det_a != 0.0).then_some(())
     }
@@ -305,22 +372,27 @@ impl Walk<'_> {
         while t < 1.0 {
             let end = if stretch >= 1.0 - t { 1.0 } else { t + stretch };
             match self.shown(&at((t + end) / 2.0), &blend_width(from, to, (end - t) / 2.0), &at(end)) {
-                Some(pose) => {
-                    self.watch_limits(out, step, from, to, [t, end], &pose);
-                    self.pose = pose;
+                Some(shown) => {
+                    let begin = self.pose;
+                    self.watch_limits(out, &Stretch { step, from, to, shown: &shown, begin }, [t, end]);
+                    (self.pose, self.spread) = (shown.arrived, shown.spread);
                     t = end;
                     stretch *= 2.0;
                 }
                 None => {
                     stretch = (end - t) / 2.0;
                     if stretch < self.settings.shortest_stretch {
-                        let event = self.meeting(step, from, to, t);
-                        out.events.push(event.unwrap_or_else(|| PathEvent {
+                        let unknown = || PathEvent {
                             at: step as f64 + t,
                             kind: PathEventKind::Branch,
                             inputs: at(t),
                             pose: self.pose,
-                        }));
+                        };
+                        let event = self.meeting(step, from, to, t).unwrap_or_else(unknown);
+                        let written = (1..=6).map(|digits| rounded(event.at - step as f64, digits));
+                        let beside: Vec<(f64, Vec<f64>)> =
+                            written.chain([1.0, 0.0]).map(|t| (step as f64 + t, at(t))).collect();
+                        out.events.push(self.or_self_motion(event, beside));
                         return false;
                     }
                 }
@@ -329,14 +401,38 @@ impl Walk<'_> {
         true
     }
 
+    /// The end of a path, as a self-motion where these inputs, or others beside them, leave the platform free to move.
+    ///
+    /// There det A vanishes as at a meeting; and the path ends beside the exact inputs, which are looked for at decimals of the way only.
+    fn or_self_motion(&self, event: PathEvent, beside: Vec<(f64, Vec<f64>)>) -> PathEvent {
+        let size = event.inputs.iter().fold(1.0, |size: f64, q| size.max(q.abs()));
+        let candidates = std::iter::once((event.at, event.inputs.clone())).chain(beside);
+        let near = candidates.filter(|(_, other)| apart(other, &event.inputs) <= BESIDE * size);
+        let found = near.into_iter().find_map(|(at, inputs)| {
+            let answer = self.free.forward(&inputs).ok()?;
+            let here = |phi: f64| super::frame::principal_angle(phi - event.pose.phi).abs() < NEAR;
+            let real = answer.group.self_motions.into_iter().find(|motion| motion.real && motion.phi.is_none_or(here));
+            real.map(|motion| (at, inputs, motion.phi))
+        });
+        match found {
+            // The exact inputs, and the last pose before them.
+            Some((at, inputs, phi)) => PathEvent { at, inputs, kind: PathEventKind::SelfMotion { phi }, ..event },
+            None => event,
+        }
+    }
+
     /// The pose at the end of a stretch, if the mode is shown to go on through it.
-    fn shown(&self, middle: &[f64], half_width: &[f64], end: &[f64]) -> Option<Pose> {
+    fn shown(&self, middle: &[f64], half_width: &[f64], end: &[f64]) -> Option<Shown> {
         let hold = self.hold(middle, half_width)?;
         let centre = hold.settle(&self.pose)?;
         let radius = hold.contraction_radius(&centre)?;
-        let inside = |pose: &Pose| hold.distance(pose, &centre) <= radius;
-        let arrived = self.hold(end, &vec![0.0; end.len()])?.settle(&centre)?;
-        (inside(&self.pose) && inside(&arrived)).then_some(arrived)
+        let ending = self.hold(end, &vec![0.0; end.len()])?;
+        let arrived = ending.settle(&centre)?;
+        // The one exact pose near each end is the one in the box.
+        let spread = ending.contraction_radius(&arrived)?;
+        let inside = |pose: &Pose, spread: f64| hold.distance(pose, &centre) + spread <= radius * INNER;
+        let within = inside(&self.pose, self.spread) && inside(&arrived, spread);
+        within.then_some(Shown { centre, radius, arrived, spread })
     }
 
     /// The meeting of two modes near the present pose, ahead on the path.
@@ -347,7 +443,7 @@ impl Walk<'_> {
         let value = |u: &Vector4<f64>| -> Option<Vector4<f64>> {
             let hold = self.hold(&blend(from, to, u.w), &vec![0.0; from.len()])?;
             let at = hold.values(&pose_of(u));
-            Some(Vector4::new(at.x, at.y, at.z, hold.det_a(&pose_of(u))))
+            Some(Vector4::new(at.x, at.y, at.z, hold.determinant(&pose_of(u))))
         };
         let jacobian = |u: &Vector4<f64>| -> Option<Matrix4<f64>> {
             let mut out = Matrix4::zeros();
@@ -389,70 +485,17 @@ impl Walk<'_> {
             pose: Pose { phi: super::frame::principal_angle(pose.phi), ..pose },
         })
     }
+}
 
-    fn violations(&self, inputs: &[f64], pose: &Pose) -> Vec<Violation> {
-        if self.robot.legs.iter().all(|leg| leg.limits == [None; 3]) {
-            return Vec::new();
-        }
-        let mut given = inputs.iter();
-        let joints: Vec<Joints> = self
-            .robot
-            .legs
-            .iter()
-            .map(|leg| {
-                let mut held = [0.0; 3];
-                let mut values = Vec::new();
-                for joint in (0..3).filter(|&joint| leg.actuated[joint]) {
-                    if let Some(&value) = given.next() {
-                        held[joint] = value;
-                        values.push((joint, value));
-                    }
-                }
-                // A leg without actuator may reach in several ways; its limits are not watched.
-                read_off(leg, &LockedLeg::new(leg, &values), &held, pose).unwrap_or([f64::NAN; 3])
-            })
-            .collect();
-        let known = |violation: &Violation| violation.value.is_finite();
-        self.robot.all_violations(&joints).into_iter().filter(known).collect()
-    }
+/// Rounding of a distance of poses against the box it must stay in.
+const INNER: f64 = 1.0 - 1e-12;
+/// Inputs within this of a path's end, in their own sizes, are looked at for a self-motion that the end only nears.
+const BESIDE: f64 = 1e-5;
 
-    /// Books each limit that is crossed between two ends of a shown stretch, where it is crossed.
-    fn watch_limits(
-        &mut self,
-        out: &mut FollowedPath,
-        step: usize,
-        from: &[f64],
-        to: &[f64],
-        [start, end]: [f64; 2],
-        pose: &Pose,
-    ) {
-        let after = self.violations(&blend(from, to, end), pose);
-        let same = |p: &Violation, q: &Violation| (p.leg, p.joint) == (q.leg, q.joint);
-        let outside = |list: &[Violation], one: &Violation| list.iter().any(|other| same(other, one));
-        let left = after.iter().filter(|v| !outside(&self.violated, v)).map(|v| (*v, true));
-        let back = self.violated.iter().filter(|v| !outside(&after, v)).map(|v| (*v, false));
-        let mut found = Vec::new();
-        for (violation, leaves) in left.chain(back) {
-            let (mut low, mut high, mut here) = (start, end, *pose);
-            for _ in 0..BISECTIONS {
-                let middle = (low + high) / 2.0;
-                let inputs = blend(from, to, middle);
-                let settled = self.hold(&inputs, &vec![0.0; inputs.len()]).and_then(|hold| hold.settle(&self.pose));
-                let Some(there) = settled else { break };
-                if outside(&self.violations(&inputs, &there), &violation) == leaves {
-                    (high, here) = (middle, there);
-                } else {
-                    low = middle;
-                }
-            }
-            let inputs = blend(from, to, high);
-            let kind = PathEventKind::Limit { violation, leaves };
-            found.push(PathEvent { at: step as f64 + high, kind, inputs, pose: here });
-        }
-        found.sort_by(|p, q| p.at.total_cmp(&q.at));
-        out.events.extend(found);
-        self.violated = after;
-    }
+/// A share of the way to so many decimals: where a path passes through a self-motion, it is mostly at a number written down by someone.
+fn rounded(t: f64, digits: i32) -> f64 {
+    let parts = 10f64.powi(digits);
+    (t * parts).round() / parts
 }
 
 /// Half-widths of central differences: the cube root of rounding.
@@ -461,10 +504,8 @@ const DIFFERENCE: f64 = 6e-6;
 const MEETING_STEPS: usize = 60;
 /// A meeting has settled once steps below this, in characteristic lengths, radians and shares of the way between rows, no longer shrink.
 const MEETING_SETTLED: f64 = 1e-12;
-/// Bisections of a limit's crossing: to rounding.
-const BISECTIONS: usize = 52;
 
-fn blend(from: &[f64], to: &[f64], t: f64) -> Vec<f64> {
+pub(super) fn blend(from: &[f64], to: &[f64], t: f64) -> Vec<f64> {
     from.iter().zip(to).map(|(a, b)| if t == 1.0 { *b } else { a + t * (b - a) }).collect()
 }
 

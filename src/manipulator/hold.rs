@@ -1,26 +1,30 @@
 //! One assembly mode along a stretch of inputs: proven to go on, or not.
 //!
-//! With the actuators held, each leg is one condition `F(pose, inputs) = 0` (two for a pinned one). For a stretch of inputs about its middle, and a
-//! ball of poses about the solution `p` there, with `C` the inverse of `DF(p)`:
+//! With the actuators held, each leg is one condition `F(pose, inputs) = 0` (two for a pinned one). For a stretch of inputs about its middle, and a box of
+//! poses of half width `r` about the approximate solution `p` there, with `C` any matrix near the inverse of `DF(p)`:
 //!
-//! - `theta`: a bound of `|C (DF - DF(p))|` over the ball and the stretch,
+//! - `theta`: a bound of `|1 - C DF|` over the box and the stretch,
 //! - `eta`: a bound of `|C F(p)|` over the stretch.
 //!
-//! Where `theta < 1` and `eta ≤ (1 - theta)·r`, the simplified Newton map is a contraction of the ball of radius `r` for every input of the stretch: each has
-//! exactly one pose in the ball, it depends continuously on the input, and it is regular. A mode that enters such a ball on one end leaves it on the
-//! other as the same mode. Both bounds are closed forms: conditions are quadratic in lengths and of first order in sine and cosine.
-//! They are evaluated in `f64` without directed rounding; [`MARGIN`] is kept for that.
+//! Where `theta < 1` and `eta ≤ (1 - theta)·r`, the simplified Newton map `u - C F(u)` is a contraction of the box for every input of the stretch: each has
+//! exactly one pose in the box, it depends continuously on the input, and it is regular. A mode that enters such a box on one end leaves it on the
+//! other as the same mode.
+//!
+//! **Proof**: both bounds are taken in [`Interval`] arithmetic, so no rounding escapes them. What they hold for is the conditions whose numbers lie within
+//! [`Play`] of the locked ones: closed bounds of what the inputs move, and [`ROUNDINGS`] for the placements that were multiplied in `f64` on the way.
+//! Source: Krawczyk 1969; Moore, Kearfott, Cloud 2009, chapter 8.
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 use super::describe::{JointKind, Leg, Manipulator, Placement};
 use super::frame::{back, principal_angle, times, unit};
 use super::lock::LockedLeg;
+use crate::algebra::Interval;
 use crate::linkage::Pose;
 
-/// Share of the contraction that is kept free for rounding: relative errors of the bounds are near 1e-15, of the inverse near 1e-16 over the
-/// smallest singular value that a step still works with (1e-8).
-const MARGIN: f64 = 0.1;
+/// Roundings allowed for in each number of a condition, in units in the last place of the lengths that went into it: a leg's placements take five
+/// products of rigid motions, of four products and sums each, and the sines and cosines in them are good to one unit.
+const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
 
 /// A condition on the pose with everything in it that the inputs move.
 #[derive(Clone, Debug)]
@@ -45,6 +49,21 @@ struct Play {
     turn: f64,
     /// Of the length or offset.
     length: f64,
+}
+
+impl Play {
+    /// Widens by what rounding does to the numbers of a condition.
+    fn allow_for_rounding(&mut self, leg: &Leg, held: &[(usize, f64, f64)], locked: &LockedLeg) {
+        let strokes: f64 =
+            held.iter().filter(|h| leg.joints[h.0] == JointKind::Prismatic).map(|h| h.1.abs() + h.2).sum();
+        let links: f64 = leg.links.iter().map(|link| link.at.norm()).sum();
+        let inner = links + strokes;
+        let widen = |play: &mut f64, size: f64| *play = *play * (1.0 + ROUNDINGS) + ROUNDINGS * size;
+        widen(&mut self.base, inner + leg.base.at.norm() + locked.near.at.norm());
+        widen(&mut self.platform, inner + leg.platform.at.norm() + locked.far.at.norm());
+        widen(&mut self.length, inner);
+        widen(&mut self.turn, 1.0);
+    }
 }
 
 /// The held platform at given inputs, the stretch around them included.
@@ -117,8 +136,10 @@ impl Hold {
         self.linearise(pose).value
     }
 
-    /// The determinant of the legs' unit wrenches, moments in units of the scale, for a pose that meets the conditions.
-    pub fn det_a(&self, pose: &Pose) -> f64 {
+    /// The determinant of the derivative with rows of unit force, moments in units of the scale: smooth along the path, zero where modes meet.
+    ///
+    /// What is reported as det A is [`super::LockedGroup::det_a`].
+    pub fn determinant(&self, pose: &Pose) -> f64 {
         let mut derivative = self.linearise(pose).derivative;
         for mut row in derivative.row_iter_mut() {
             let force = row[0].hypot(row[1]);
@@ -150,29 +171,78 @@ impl Hold {
         None
     }
 
-    /// The radius, in units of the scale and radians, of a ball about `pose` in which every input of the stretch has exactly one pose; `None` where
-    /// that is not shown. `pose` solves the middle of the stretch.
+    /// The half width, in units of the scale and radians, of a box about `pose` in which every input of the stretch has exactly one pose; `None` where
+    /// that is not shown. `pose` solves the middle of the stretch, approximately.
     pub fn contraction_radius(&self, pose: &Pose) -> Option<f64> {
-        let at = self.linearise(pose);
-        let inverse = at.derivative.try_inverse()?.abs();
-        let (mut shift, mut spare) = (Vector3::zeros(), Vector3::zeros());
-        for (row, (condition, play)) in self.conditions.iter().enumerate() {
-            shift[row] = at.value[row].abs() + self.shift(condition, play, pose);
-            spare[row] = f64::EPSILON;
-        }
-        let eta = (inverse * (shift + spare)).max();
-        if !eta.is_finite() {
+        let inverse = self.linearise(pose).derivative.try_inverse()?;
+        if !inverse.iter().all(|entry| entry.is_finite()) {
             return None;
         }
-        let radius = 2.0 * eta;
-        let mut change = Matrix3::zeros();
-        for (row, (condition, play)) in self.conditions.iter().enumerate() {
-            let [force, moment] = self.change(condition, play, pose, radius);
-            change.set_row(row, &Vector3::new(force, force, moment).transpose());
+        let turn = Interval::cos_sin(pose.phi);
+        let eta = largest_row(&inverse, |row| [self.row(row, pose, &turn, 0.0)[0]], |_, _| 0.0);
+        // The least box that could be mapped into itself with theta = 1/2; a box is never a point.
+        let radius = (2.0 * eta).max(f64::MIN_POSITIVE) * (1.0 + ROUNDINGS);
+        if !radius.is_finite() || radius > LARGEST_BOX {
+            return None;
         }
-        let product = inverse * change;
-        let theta = product.row_iter().map(|row| row.sum()).fold(0.0, f64::max);
-        (theta <= 0.5 * (1.0 - MARGIN)).then_some(radius)
+        let derivative = |row: usize| {
+            let [_, x, y, phi] = self.row(row, pose, &turn, radius);
+            [x, y, phi]
+        };
+        let theta = largest_row(&inverse, derivative, |i, j| if i == j { 1.0 } else { 0.0 });
+        // Upwards: eta and the largest row are upper bounds already.
+        (theta < 0.5 && eta <= ((1.0 - theta).next_down() * radius).next_down()).then_some(radius)
+    }
+
+    /// A condition's value at `pose`, and its derivative over the box of half width `radius` about it, both over the stretch: in units of the scale. `turn` is the cosine and sine of its angle.
+    fn row(&self, row: usize, pose: &Pose, turn: &[Interval; 2], radius: f64) -> [Interval; 4] {
+        let (condition, play) = &self.conditions[row];
+        let scale = Interval::point(self.scale);
+        let over = |value: Interval, by: Interval| value.checked_div(by).unwrap_or(UNBOUNDED);
+        let side = Interval::point(radius) * scale;
+        let around = |centre: f64, half: Interval| Interval::point(centre) + half.hull(-half);
+        let x = [around(pose.x, side), around(pose.y, side)];
+        // Sine and cosine change by at most the angle.
+        let angle = Interval::point(radius);
+        let turn = turn.map(|value| value + angle.hull(-angle));
+        let point = |p: &Vector2<f64>, half: f64| [p.x, p.y].map(|c| around(c, Interval::point(half)));
+        let rotated = |[c, s]: [Interval; 2], [p, q]: [Interval; 2]| [c * p - s * q, s * p + c * q];
+        let plus = |p: [Interval; 2], q: [Interval; 2]| [p[0] + q[0], p[1] + q[1]];
+        let minus = |p: [Interval; 2], q: [Interval; 2]| [p[0] - q[0], p[1] - q[1]];
+        let dot = |p: [Interval; 2], q: [Interval; 2]| p[0] * q[0] + p[1] * q[1];
+        let cross = |p: [Interval; 2], q: [Interval; 2]| p[0] * q[1] - p[1] * q[0];
+        match condition {
+            Condition::Circle { a, b, length } => {
+                let arm = rotated(turn, point(b, play.platform));
+                let k = minus(plus(x, arm), point(a, play.base));
+                let radius = around(*length, Interval::point(play.length));
+                let square = scale * scale;
+                // At the pose the difference of squares is a product: nearly equal lengths keep their digits.
+                let size = (k[0].square() + k[1].square()).sqrt().unwrap_or(UNBOUNDED);
+                let value = ((size - radius) * (size + radius)).times(0.5);
+                [over(value, square), over(k[0], scale), over(k[1], scale), over(cross(arm, k), square)]
+            }
+            Condition::Line { a, b, normal } => {
+                let arm = rotated(turn, point(b, play.platform));
+                let k = minus(plus(x, arm), point(a, play.base));
+                let n = point(normal, play.turn);
+                [over(dot(n, k), scale), n[0], n[1], over(cross(arm, n), scale)]
+            }
+            Condition::PlatformLine { a, b, normal, offset } => {
+                // The platform's line keeps its direction unless its own joint turns it.
+                let m = rotated(turn, point(normal, play.turn));
+                let arm = rotated(turn, point(b, play.platform));
+                let reach = minus(point(a, play.base), x);
+                let value = dot(m, minus(reach, arm)) - around(*offset, Interval::point(play.length));
+                [over(value, scale), -m[0], -m[1], over(cross(m, reach), scale)]
+            }
+            Condition::Orientation { angle } => {
+                let turned = principal_angle(pose.phi - angle);
+                let half = Interval::point(radius) + Interval::point(play.turn);
+                let zero = Interval::point(0.0);
+                [Interval::point(turned) + half.hull(-half), zero, zero, Interval::point(1.0)]
+            }
+        }
     }
 
     /// How far apart two poses are, in units of the scale and radians.
@@ -180,54 +250,34 @@ impl Hold {
         let along = (p.x - q.x).abs().max((p.y - q.y).abs()) / self.scale;
         along.max(principal_angle(p.phi - q.phi).abs())
     }
+}
 
-    /// A bound of the change of a condition's value at a fixed pose over the stretch.
-    fn shift(&self, condition: &Condition, play: &Play, pose: &Pose) -> f64 {
-        let kappa = play.base + play.platform;
-        match condition {
-            Condition::Circle { a, b, length } => {
-                let k = (pose.place(*b) - a).norm();
-                ((k + kappa) * kappa + (length + play.length) * play.length) / self.scale.powi(2)
-            }
-            Condition::Line { a, b, .. } | Condition::PlatformLine { a, b, .. } => {
-                let k = (pose.place(*b) - a).norm();
-                (play.turn * k + kappa * (1.0 + play.turn) + play.length) / self.scale
-            }
-            Condition::Orientation { .. } => play.turn,
-        }
-    }
+/// No larger box is of use: sines and cosines are bounded by the angle.
+const LARGEST_BOX: f64 = 1.0;
+/// What nothing is known of.
+const UNBOUNDED: Interval = Interval::EVERYTHING;
 
-    /// A bound of the change of a condition's derivative over ball and stretch: of each force component, and of the moment.
-    fn change(&self, condition: &Condition, play: &Play, pose: &Pose, radius: f64) -> [f64; 2] {
-        // The origin moves by the ball's diagonal.
-        let origin = radius * self.scale * std::f64::consts::SQRT_2;
-        match condition {
-            Condition::Circle { a, b, .. } => {
-                let arm = radius * b.norm() + play.platform;
-                let k = (pose.place(*b) - a).norm();
-                let k_change = origin + arm + play.base;
-                let moment = (b.norm() + arm) * k_change + arm * k;
-                [k_change / self.scale, moment / self.scale.powi(2)]
-            }
-            Condition::Line { b, .. } => {
-                let arm = radius * b.norm() + play.platform;
-                [play.turn, (play.turn * (b.norm() + arm) + arm) / self.scale]
-            }
-            Condition::PlatformLine { a, .. } => {
-                let turn = radius + play.turn;
-                let reach = (a - Vector2::new(pose.x, pose.y)).norm();
-                let reach_change = origin + play.base;
-                [turn, (turn * (reach + reach_change) + reach_change) / self.scale]
-            }
-            Condition::Orientation { .. } => [0.0, 0.0],
-        }
-    }
+/// The largest sum of magnitudes in a row of `from - inverse · entries`, an upper bound.
+fn largest_row<const N: usize>(
+    inverse: &Matrix3<f64>,
+    entries: impl Fn(usize) -> [Interval; N],
+    from: impl Fn(usize, usize) -> f64,
+) -> f64 {
+    let rows = [0, 1, 2].map(entries);
+    let sum = |i: usize| {
+        (0..N).fold(0.0, |sum: f64, j| {
+            let product = (0..3).fold(Interval::point(0.0), |sum, k| sum + rows[k][j].times(inverse[(i, k)]));
+            (sum + (Interval::point(from(i, j)) - product).magnitude()).next_up()
+        })
+    };
+    (0..3).map(sum).fold(0.0, f64::max)
 }
 
 /// Newton steps before a start is given up: from within a contraction's ball each halves the error at least.
 const NEWTON_STEPS: usize = 60;
-/// Steps below this, in units of the scale and radians, count as settled once they stop shrinking.
-const SETTLED: f64 = 1e-12;
+/// Steps below this, in units of the scale and radians, count as settled once they stop shrinking: rounding over the smallest singular value that a step
+/// still works with (1e-8). How far the exact pose may be then is for [`Hold::contraction_radius`] to show.
+const SETTLED: f64 = 1e-8;
 
 fn cross(a: Vector2<f64>, b: Vector2<f64>) -> f64 {
     a.x * b.y - a.y * b.x
@@ -267,6 +317,7 @@ fn conditions_of(out: &mut Vec<(Condition, Play)>, leg: &Leg, held: &[(usize, f6
             play.length += moved(reach(0..2));
         }
     }
+    play.allow_for_rounding(leg, held, &locked);
     match (&idle[..], &locked.between[..]) {
         ([(_, R), (_, R)], [middle]) => {
             // A radius changes with the middle only.
@@ -312,7 +363,7 @@ fn conditions_of(out: &mut Vec<(Condition, Play)>, leg: &Leg, held: &[(usize, f6
 mod tests {
     use super::*;
 
-    /// Inside a shown ball the poses at the ends of the stretch are found, and none lies on its edge.
+    /// Inside a shown box the poses at the ends of the stretch are found, and none lies on its edge.
     #[test]
     fn a_shown_stretch_holds_its_ends() {
         for family in

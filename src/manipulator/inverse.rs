@@ -141,6 +141,17 @@ pub enum KinematicsError {
         /// By how much, a length.
         miss: f64,
     },
+    /// Several working modes reach the pose and none was named.
+    #[error("mode: none named, and {} of the {} that reach the pose {}: {}", .candidates.len(), .all,
+        if *.within_limits { "are within the limits" } else { "could be meant" }, .candidates.join(", "))]
+    WhichMode {
+        /// The names of those that could be meant.
+        candidates: Vec<String>,
+        /// How many reach the pose.
+        all: usize,
+        /// Whether the candidates are within the limits and the others are not; else nothing tells them apart.
+        within_limits: bool,
+    },
     /// A length that must be positive is not.
     #[error("{what}: {value} must be > 0 and finite")]
     NotPositive {
@@ -151,7 +162,67 @@ pub enum KinematicsError {
     },
 }
 
+/// Why a working mode was taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ModeChoice {
+    /// It was named.
+    Named,
+    /// It is the only one that reaches the pose.
+    Only,
+    /// It is the only one within the limits.
+    WithinLimits,
+}
+
+impl ModeChoice {
+    /// The words that reports use: `named`, `the only one`, `the only one within the limits`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Named => "named",
+            Self::Only => "the only one",
+            Self::WithinLimits => "the only one within the limits",
+        }
+    }
+}
+
 impl Manipulator {
+    /// The working mode meant in a pose: the one named, or else the one that alone reaches the pose or alone is within the limits.
+    ///
+    /// # Errors
+    /// As [`Manipulator::working_mode`]; several modes that could be meant, with their names.
+    ///
+    /// ```
+    /// use assur::{Manipulator, ModeChoice, Pose};
+    /// let (mut robot, _) = Manipulator::of_family("3-RPR")?;
+    /// let pose = Pose::new(5.5, 4.0, 0.3);
+    /// let error = robot.chosen_mode(&pose, None).unwrap_err().to_string();
+    /// assert!(error.starts_with("mode: none named, and 8 of the 8 that reach the pose could be meant: +++, ++-"));
+    /// robot.legs.iter_mut().for_each(|leg| leg.limits[1] = Some([0.0, 50.0]));
+    /// let (mode, choice) = robot.chosen_mode(&pose, None)?;
+    /// assert_eq!((mode.signs.as_str(), choice), ("+++", ModeChoice::WithinLimits));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn chosen_mode(&self, pose: &Pose, signs: Option<&str>) -> Result<(WorkingMode, ModeChoice), KinematicsError> {
+        if let Some(signs) = signs {
+            return Ok((self.working_mode(pose, signs)?, ModeChoice::Named));
+        }
+        let answer = self.inverse(pose)?;
+        if let Some(&Unreachable { leg, miss }) = answer.unreachable.first() {
+            return Err(KinematicsError::Unreachable { leg, miss });
+        }
+        let inside: Vec<&WorkingMode> = answer.modes.iter().filter(|mode| mode.violations.is_empty()).collect();
+        match (&answer.modes[..], &inside[..]) {
+            ([only], _) => Ok((only.clone(), ModeChoice::Only)),
+            (_, [only]) => Ok(((*only).clone(), ModeChoice::WithinLimits)),
+            (all, inside) => {
+                let within_limits = !inside.is_empty() && inside.len() < all.len();
+                let names = |modes: &[&WorkingMode]| modes.iter().map(|mode| mode.signs.clone()).collect();
+                let every: Vec<&WorkingMode> = all.iter().collect();
+                let candidates = if within_limits { names(inside) } else { names(&every) };
+                Err(KinematicsError::WhichMode { candidates, all: all.len(), within_limits })
+            }
+        }
+    }
+
     /// Every working mode for a pose, with all joint values.
     ///
     /// **Shape**: up to two ways a leg, so up to eight modes, `+++` first. The sign of a leg is + for the larger value of the

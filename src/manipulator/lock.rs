@@ -44,6 +44,28 @@ pub enum LockedGroup {
     Placed(Pose),
 }
 
+impl LockedGroup {
+    /// det A in a pose that closes: [`Triad::det_a`], [`PinnedDyad::det_a`], and 1 where the actuators place the platform.
+    ///
+    /// [`Manipulator::forward`] and [`Manipulator::follow`] report this number. How it goes with the determinant of [`crate::Velocity::pose_matrix`]
+    /// is said in the module `det_a` of `linkage`, and held by the test `kinematics_det_a`.
+    ///
+    /// ```
+    /// use assur::Manipulator;
+    /// let (robot, inputs) = Manipulator::of_family("3-PRR")?;
+    /// let mode = &robot.forward(&inputs)?.modes[0].mode;
+    /// assert!((robot.lock(&inputs)?.det_a(&mode.pose) - mode.det_a).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn det_a(&self, pose: &Pose) -> f64 {
+        match self {
+            Self::Triad(triad) => triad.det_a(pose),
+            Self::Pinned(pinned) => pinned.det_a(pose),
+            Self::Placed(_) => 1.0,
+        }
+    }
+}
+
 /// Why actuator values leave no group that could be assembled. Legs and joints are counted from 1.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum LockError {

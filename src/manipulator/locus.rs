@@ -28,7 +28,8 @@
 //! | `_P_RR`, `RR_P_` | 20 | | `P_R_R`, `R_R_P`, `_P_PR`, `P_P_R`, `R_P_P`, `RP_P_` | 0: the position does not matter |
 //! | `_R_RR`, `RR_R_` | 44 | | | |
 //!
-//! The derivation `singularity_degrees` finds each by exact elimination. What it cannot do: legs with several actuators or none.
+//! The derivation `singularity_degrees` finds each by exact elimination on random members, three of each type (one at degree 44), shows the curve irreducible
+//! over the rationals, and says how certain it is that the general member has no higher degree. What it cannot do: legs with several actuators or none.
 
 use nalgebra::Vector2;
 use thiserror::Error;

@@ -7,7 +7,9 @@
 use std::fmt;
 
 use super::describe::{JointKind, Leg, Manipulator};
-use crate::linkage::triad_degree;
+use super::joints::branch_count;
+use super::lock::LockedGroup;
+use crate::linkage::{Special, triad_degree};
 
 /// What a description says before any input is known. Legs are counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,6 +26,15 @@ pub enum Remark {
         /// Leg, from 1.
         leg: usize,
     },
+    /// The locked group has this shape for every input.
+    Always(Special),
+    /// A leg without actuator reaches each pose in several ways, and every count of modes is that many times as large.
+    FreeLeg {
+        /// Leg, from 1.
+        leg: usize,
+        /// In how many ways.
+        ways: usize,
+    },
 }
 
 impl Remark {
@@ -33,6 +44,8 @@ impl Remark {
             Self::OrientationTwice => "orientation_twice",
             Self::ParallelSliders { .. } => "parallel_sliders",
             Self::CoincidentPivots { .. } => "coincident_pivots",
+            Self::Always(special) => special.name(),
+            Self::FreeLeg { .. } => "free_leg",
         }
     }
 }
@@ -41,8 +54,8 @@ impl Remark {
     /// The leg it is about, from 1; `None` where it is about all.
     pub fn leg(self) -> Option<usize> {
         match self {
-            Self::OrientationTwice => None,
-            Self::ParallelSliders { leg } | Self::CoincidentPivots { leg } => Some(leg),
+            Self::OrientationTwice | Self::Always(_) => None,
+            Self::ParallelSliders { leg } | Self::CoincidentPivots { leg } | Self::FreeLeg { leg, .. } => Some(leg),
         }
     }
 }
@@ -55,6 +68,12 @@ impl fmt::Display for Remark {
             }
             Self::ParallelSliders { leg } => write!(f, "leg {leg}: two adjacent sliders are parallel"),
             Self::CoincidentPivots { leg } => write!(f, "leg {leg}: two adjacent revolute joints coincide"),
+            Self::Always(special) => write!(f, "{} for every input", special.name().replace('_', " ")),
+            Self::FreeLeg { leg, ways } => write!(
+                f,
+                "leg {leg} has no actuator and reaches each pose in {ways} ways: each is a mode, and all counts are {ways} times those of the group that holds \
+                 the platform"
+            ),
         }
     }
 }
@@ -73,9 +92,58 @@ impl Manipulator {
         (dyads.len() == 3 && dyads.iter().all(|dyad| dyad.len() == 2)).then(|| dyads.join("-"))
     }
 
-    /// How many assembly modes there can be at most, for any inputs, self-motions apart; `None` where the group is no triad.
+    /// How many assembly modes there can be at most, for any inputs, self-motions apart: the degree of the account of [`Manipulator::forward`].
+    ///
+    /// Where two actuators share a leg: 2 for a pinned platform (1 on PP), the triad's with a slider that keeps its orientation; 1 where one leg places it. A leg without actuator
+    /// doubles the count if it reaches poses in two ways. `None` where nothing is determined.
+    ///
+    /// ```
+    /// use assur::{Leg, Manipulator};
+    /// let two_on_one = vec!["_R__R_R".parse::<Leg>()?, "_R_RR".parse()?];
+    /// assert_eq!(Manipulator::new("", two_on_one)?.degree_bound(), Some(2));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn degree_bound(&self) -> Option<usize> {
-        triad_degree(&self.group()?.split('-').collect::<Vec<_>>())
+        let passive: Vec<String> = self.legs.iter().map(Leg::passive_joints).collect();
+        let mut holding: Vec<&str> = passive.iter().map(String::as_str).filter(|joints| joints.len() < 3).collect();
+        holding.sort_by_key(|joints| joints.len());
+        let bound = match holding[..] {
+            [""] => 1,
+            ["R", "PP"] => 1,
+            ["R", _] => 2,
+            // A slider of the leg that keeps the orientation is the line of a PR leg.
+            ["P", leg] => triad_degree(&["PP", "PR", leg])?,
+            [_, _, _] => triad_degree(&holding)?,
+            _ => return None,
+        };
+        Some(bound * self.free_legs().map(|(_, ways)| ways).product::<usize>())
+    }
+
+    /// Legs without actuator, from 1, with the number of ways in which each reaches a pose.
+    fn free_legs(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let free = (1..).zip(&self.legs).filter(|(_, leg)| leg.actuated == [false; 3]);
+        free.map(|(number, leg)| (number, branch_count(leg)))
+    }
+
+    /// The shapes that the locked group has for every input: those that three unrelated choices of inputs share, each decided exactly.
+    fn lasting_shapes(&self) -> Vec<Special> {
+        let mut free = self.clone();
+        free.legs.iter_mut().for_each(|leg| leg.limits = [None; 3]);
+        let length = self.characteristic_length();
+        let shapes = |sample: usize| {
+            let value = |(k, (leg, joint)): (usize, (usize, usize))| {
+                // Angles and lengths with nothing special about them.
+                let number = 0.6180 + 0.7311 * (sample * 3 + k) as f64 + 0.0137 * (sample * sample) as f64;
+                if self.legs[leg].joints[joint] == JointKind::Prismatic { length * number } else { number }
+            };
+            let inputs: Vec<f64> = self.actuated_joints().enumerate().map(value).collect();
+            match free.lock(&inputs) {
+                Ok(LockedGroup::Triad(triad)) => triad.special_shapes(),
+                _ => Vec::new(),
+            }
+        };
+        let [second, third] = [shapes(1), shapes(2)];
+        shapes(0).into_iter().filter(|shape| second.contains(shape) && third.contains(shape)).collect()
     }
 
     /// What deserves a word before any input is known: legs and groups that lose a freedom or a constraint.
@@ -97,6 +165,8 @@ impl Manipulator {
                 }
             }
         }
+        remarks.extend(self.lasting_shapes().into_iter().map(Remark::Always));
+        remarks.extend(self.free_legs().filter(|(_, ways)| *ways > 1).map(|(leg, ways)| Remark::FreeLeg { leg, ways }));
         remarks
     }
 }

@@ -17,12 +17,13 @@ mod screw;
 mod singular;
 mod trace;
 mod velocity;
+mod watch;
 
 pub use catalogue::FamilyError;
 pub use describe::{DescriptionError, JointKind, JointsError, JointsReason, Leg, Manipulator, Placement};
 pub use follow::{FollowedPath, PathError, PathEvent, PathEventKind, PathRow, PathSettings};
 pub use forward::{AssemblyModes, ManipulatorMode, Violation};
-pub use inverse::{InverseSpecial, KinematicsError, Unreachable, WorkingMode, WorkingModes};
+pub use inverse::{InverseSpecial, KinematicsError, ModeChoice, Unreachable, WorkingMode, WorkingModes};
 pub use lock::{LockError, LockedGroup};
 pub use locus::{LegLocus, LocusError, PlaneCurve, SingularityLocus};
 pub use mobility::Remark;

@@ -81,11 +81,18 @@ pub struct Singularity {
     pub reading: Option<Reading>,
     /// The platform's free motion `(x', y', phi')` of size one (types 2 and 3, self-motion).
     pub free_motion: Option<Vector3<f64>>,
-    /// Smallest singular value of `A` with rows as wrenches of size one, moments in characteristic lengths: 0 singular, at most 1.
+    /// The matrix whose singular values are given: `A` with moments in characteristic lengths and each row then divided by its length, so that it is a wrench of
+    /// size one. A leg whose idle joints move with the platform at rest has two rows instead of its own. No unit.
+    pub scaled_pose_matrix: DMatrix<f64>,
+    /// Its singular values, largest first.
+    pub singular_values: [f64; 3],
+    /// The smallest of them: 0 singular, at most 1 for three rows.
     pub sigma_min: f64,
-    /// The same of `B`, rows and columns of size one: the smallest sine of a leg.
+    /// The smallest singular value of a leg's block of `B`, rows divided as those of `A` and columns by the sizes of the actuated screws: the sine by which the leg
+    /// is away from type 1.
     pub sigma_min_input: f64,
-    /// Smallest over largest singular value of the map from inputs to pose, angles in characteristic lengths: 0 singular, 1 isotropic.
+    /// Smallest over largest singular value of `B⁻¹ A diag(1, 1, 1/length)`, the map from `(x', y', length·phi')` to input rates, inputs weighed as they are: 0
+    /// singular, 1 isotropic. The scaling of rows has no part in it.
     pub dexterity: f64,
     /// The characteristic length used.
     pub characteristic_length: f64,
@@ -197,15 +204,19 @@ impl Velocity {
         };
         let legs: Vec<usize> = (1..=self.joints.len()).filter(|&leg| lost(leg)).collect();
         let wrenches = self.all_wrenches(length, &idle_legs);
-        let decomposition = wrenches.svd(false, true);
+        let decomposition = wrenches.clone().svd(false, true);
         let sigma = &decomposition.singular_values;
-        let sigma_min = sigma.min();
+        let mut singular_values = [sigma[0], sigma[1], sigma[2]];
+        singular_values.sort_by(|p, q| q.total_cmp(p));
+        let sigma_min = singular_values[2];
         let mut out = Singularity {
             kind: SingularityKind::Regular,
             legs,
             idle_legs,
             reading: None,
             free_motion: None,
+            scaled_pose_matrix: wrenches,
+            singular_values,
             sigma_min,
             sigma_min_input: input_sines.iter().map(|&(_, sine)| sine).fold(1.0, f64::min),
             dexterity: self.dexterity(length),

@@ -3,11 +3,14 @@
 //! The exact curve of all modes is [`super::locus`]; here each mode's own piece is found by the sign of its `det A` on squares that are halved
 //! where the sign changes and where a leg's reach ends. What it cannot do: a drawing misses pieces smaller than its squares.
 
+use std::f64::consts::TAU;
+
 use nalgebra::Vector2;
 
-use super::describe::Manipulator;
+use super::describe::{JointKind, Leg, Manipulator};
 use super::inverse::KinematicsError;
 use super::joints::branch_count;
+use super::locus::{LegLocus, PlaneCurve};
 use super::singular::positive_length;
 use crate::linkage::Pose;
 
@@ -57,7 +60,7 @@ pub struct PlaneMap {
     pub window: PlaneWindow,
     /// Columns and rows.
     pub size: [usize; 2],
-    /// Values at the middles of the cells, row by row from below, left to right; `None` where a leg does not reach.
+    /// Values at the middles of the cells, row by row from below, left to right; `None` where a leg does not reach within its limits, and where the value is infinite.
     pub values: Vec<Option<f64>>,
 }
 
@@ -77,9 +80,14 @@ const COARSE: usize = 96;
 const HALVINGS: usize = 3;
 /// Halvings of a square's side towards the curve: to a hundred-thousandth of it.
 const BISECTIONS: usize = 17;
+/// Pieces of a drawn curve of type 1.
+const ARCS: usize = 720;
+/// How far beside a curve of type 1, in parts of the window, the reach of the other legs is looked at.
+const BESIDE: f64 = 1e-6;
 
 impl Manipulator {
-    /// The part of the plane worth looking at: around the points from which the legs' base pivots see the platform's origin, with room for links.
+    /// The part of the plane worth looking at: where all legs reach in some working mode, within the limits, with a little room; where sliders without
+    /// limits reach for ever, or nothing is reached, around the points from which the legs' bases see the platform's origin, with room for links and strokes.
     pub fn plane_window(&self, phi: f64) -> PlaneWindow {
         let turn = Pose::new(0.0, 0.0, phi);
         let centres: Vec<Vector2<f64>> =
@@ -88,10 +96,68 @@ impl Manipulator {
         for centre in &centres {
             (low, high) = (low.inf(centre), high.sup(centre));
         }
-        let links = self.legs.iter().map(|leg| leg.links.iter().map(|link| link.at.norm()).sum::<f64>());
+        let reach = |leg: &Leg| {
+            let links: f64 = leg.links.iter().map(|link| link.at.norm()).sum();
+            let strokes = leg.joints.iter().zip(&leg.limits).filter(|(kind, _)| **kind == JointKind::Prismatic);
+            links + strokes.filter_map(|(_, limit)| limit.map(|[a, b]| a.abs().max(b.abs()))).sum::<f64>()
+        };
         let spread = self.legs.iter().map(|leg| leg.platform.at.norm()).fold(self.characteristic_length(), f64::max);
-        let room = links.fold(spread, f64::max) * 1.1;
-        PlaneWindow { low: low - Vector2::repeat(room), high: high + Vector2::repeat(room) }
+        let room = self.legs.iter().map(reach).fold(spread, f64::max) * 1.1;
+        let widest = PlaneWindow { low: low - Vector2::repeat(room), high: high + Vector2::repeat(room) };
+        self.reached_part(phi, &widest).unwrap_or(widest)
+    }
+
+    /// The cells of a window with a position in reach, with one more all around; `None` where there is none.
+    fn reached_part(&self, phi: f64, window: &PlaneWindow) -> Option<PlaneWindow> {
+        let step = (window.high - window.low) / COARSE as f64;
+        let at = |i: usize, j: usize| window.low + Vector2::new(step.x * i as f64, step.y * j as f64);
+        let grid = (0..=COARSE).flat_map(|i| (0..=COARSE).map(move |j| (i, j)));
+        let mut reached = grid.map(|(i, j)| at(i, j)).filter(|p| self.is_reached(&Pose::new(p.x, p.y, phi)));
+        let first = reached.next()?;
+        let (low, high) = reached.fold((first, first), |(low, high), p| (low.inf(&p), high.sup(&p)));
+        let room = step * 2.0 + (high - low) * 0.04;
+        Some(PlaneWindow { low: (low - room).sup(&window.low), high: (high + room).inf(&window.high) })
+    }
+
+    /// Whether some working mode reaches a pose within the limits.
+    fn is_reached(&self, pose: &Pose) -> bool {
+        self.inverse(pose).is_ok_and(|answer| answer.modes.iter().any(|mode| mode.violations.is_empty()))
+    }
+
+    /// The parts of a leg's curves of type 1 that the other legs reach, within the limits, as straight pieces for a drawing.
+    ///
+    /// **Accuracy**: pieces end where the reach does to a share of 1/720 of the circle, or of the line's part in the window.
+    pub fn trace_leg_locus(&self, locus: &LegLocus, phi: f64, window: &PlaneWindow) -> Vec<[Vector2<f64>; 2]> {
+        let mut out = Vec::new();
+        let size = (window.high - window.low).norm();
+        for curve in &locus.curves {
+            // The curve, and the direction across it, at the share t of its way.
+            let at = |t: f64| match *curve {
+                PlaneCurve::Circle { center, radius } => {
+                    let out = Vector2::new((TAU * t).cos(), (TAU * t).sin());
+                    [center + out * radius, out]
+                }
+                PlaneCurve::Line { point, direction } => {
+                    let foot = point + direction * direction.dot(&((window.low + window.high) / 2.0 - point));
+                    [foot + direction * (2.0 * t - 1.0) * size, Vector2::new(-direction.y, direction.x)]
+                }
+            };
+            // The curve itself is the edge of the leg's reach: rounding decides there, so a little to either side is looked at.
+            let reached = |t: f64| {
+                let [point, across] = at(t);
+                [BESIDE, -BESIDE].into_iter().any(|off| {
+                    let p = point + across * (off * size);
+                    self.is_reached(&Pose::new(p.x, p.y, phi))
+                })
+            };
+            for k in 0..ARCS {
+                let [start, end] = [k, k + 1].map(|k| k as f64 / ARCS as f64);
+                if reached((start + end) / 2.0) {
+                    out.push([at(start)[0], at(end)[0]]);
+                }
+            }
+        }
+        out
     }
 
     /// The names of all working modes that there can be, `+++` first.
@@ -102,8 +168,8 @@ impl Manipulator {
         })
     }
 
-    /// The pieces of a mode's curve of type 2 for a fixed orientation, as straight pieces for a drawing, clipped to where the legs reach; limits
-    /// are not looked at.
+    /// The pieces of a mode's curve of type 2 for a fixed orientation, as straight pieces for a drawing, clipped to where the legs reach within their
+    /// limits.
     ///
     /// # Errors
     /// An orientation that is not finite, a mode that is none.
@@ -119,7 +185,7 @@ impl Manipulator {
         self.check_signs(signs)?;
         let value = |p: Vector2<f64>| {
             let pose = Pose::new(p.x, p.y, phi);
-            let mode = self.working_mode(&pose, signs).ok()?;
+            let mode = self.working_mode(&pose, signs).ok().filter(|mode| mode.violations.is_empty())?;
             let rows = self.velocity_at(&pose, &mode.joints).pose_matrix;
             let (determinant, size) = (rows.determinant(), rows.row_iter().map(|row| row.norm()).product::<f64>());
             // Where every position is singular, the signs of what rounding leaves would draw a curve through every square.
@@ -181,7 +247,9 @@ impl Manipulator {
         for row in 0..size[1] {
             for column in 0..size[0] {
                 let p = map.at(column, row);
-                let velocity = self.velocity(&Pose::new(p.x, p.y, phi), signs).ok();
+                let pose = Pose::new(p.x, p.y, phi);
+                let mode = self.working_mode(&pose, signs).ok().filter(|mode| mode.violations.is_empty());
+                let velocity = mode.map(|mode| self.velocity_at(&pose, &mode.joints));
                 let value = velocity.map(|velocity| match quantity {
                     MapQuantity::Dexterity => velocity.dexterity(length),
                     MapQuantity::Accuracy => velocity.position_error(reference),

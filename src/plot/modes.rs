@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry2, Translation2, UnitComplex, Vector2};
 
-use super::scene::{Look, Mark, Scene, caption, length, number, summary};
+use super::scene::{Look, Mark, Scene, caption, heading, length, number, summary};
 use super::sheet::sheet;
 use crate::manipulator::{AssemblyModes, JointKind, Leg, Manipulator, ManipulatorMode, Placement};
 
@@ -22,8 +22,8 @@ pub fn draw_modes(robot: &Manipulator, answer: &AssemblyModes) -> String {
         });
     let inputs = inputs.collect::<Vec<_>>().join(", ");
     let count = summary(&answer.group.account, answer.modes.len(), answer.group.status);
-    let title = if robot.name.is_empty() { robot.family() } else { robot.name.clone() };
-    sheet(&title, &format!("{}  ·  inputs {inputs}  ·  {count}", robot.family()), &scenes)
+    let (title, family) = heading(robot);
+    sheet(&title, &format!("{family}inputs {inputs}  ·  {count}"), &scenes)
 }
 
 fn mode_scene(robot: &Manipulator, mode: &ManipulatorMode, number: usize) -> Scene {
@@ -45,12 +45,13 @@ fn draw_chain(marks: &mut Vec<Mark>, leg: &Leg, values: &[f64; 3], number: usize
     let [inner, outer] = chain(leg, values);
     let at = |frame: &Isometry2<f64>| frame.translation.vector;
     let along = |frame: &Isometry2<f64>| frame.rotation * Vector2::x();
+    marks.push(Mark::Number { at: at(&inner[0]), leg: number });
     for joint in 0..3 {
         let (from, to, direction) = (at(&inner[joint]), at(&outer[joint]), along(&inner[joint]));
         match (leg.joints[joint], joint) {
             (JointKind::Revolute, _) => {
                 if joint == 0 {
-                    marks.push(Mark::Ground { at: from, leg: number });
+                    marks.push(Mark::Ground { at: from });
                 }
                 marks.push(Mark::Pin { at: from, look: look(joint) });
             }
@@ -99,9 +100,10 @@ fn base_scene(robot: &Manipulator) -> Scene {
     let mut marks = Vec::new();
     for (index, leg) in robot.legs.iter().enumerate() {
         let (at, look) = (leg.base.at, Look { actuated: leg.actuated[0], violated: false });
+        marks.push(Mark::Number { at, leg: index + 1 });
         match leg.joints[0] {
             JointKind::Revolute => {
-                marks.extend([Mark::Ground { at, leg: index + 1 }, Mark::Pin { at, look }]);
+                marks.extend([Mark::Ground { at }, Mark::Pin { at, look }]);
             }
             JointKind::Prismatic => {
                 let along = leg.base.direction.normalize();

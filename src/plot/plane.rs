@@ -4,9 +4,9 @@ use nalgebra::Vector2;
 use svg::Document;
 use svg::node::element::{Circle, ClipPath, Definitions, Group, Line, Path, Polyline, Rectangle, Text};
 
-use super::scene::number;
+use super::scene::{heading, number};
 use super::symbols::{ALARM, INK, QUIET};
-use crate::manipulator::{FollowedPath, LegLocus, Manipulator, PathEventKind, PlaneCurve, PlaneMap, PlaneWindow};
+use crate::manipulator::{FollowedPath, Manipulator, PathEventKind, PlaneMap, PlaneWindow};
 
 /// Side of the picture of the plane, room around it and for the legend beside it, in pixels.
 const SIDE: f64 = 560.0;
@@ -14,8 +14,10 @@ const LEFT: f64 = 70.0;
 const TOP: f64 = 72.0;
 const BESIDE: f64 = 215.0;
 const BOTTOM: f64 = 46.0;
-/// Colours of curves and modes.
-const COLOURS: [&str; 8] = ["#c0392b", "#2471a3", "#1e8449", "#b7950b", "#7d3c98", "#d35400", "#117a65", "#5d6d7e"];
+/// Colours of curves and modes: Okabe and Ito's, told apart in all kinds of colour vision, with brown for their yellow, which is lost on white.
+const COLOURS: [&str; 8] = ["#d55e00", "#0072b2", "#009e73", "#e69f00", "#cc79a7", "#56b4e9", "#7a4a21", "#000000"];
+/// Curves of type 1.
+const EDGE: &str = "#8a949e";
 
 /// From positions to pixels.
 struct Chart {
@@ -96,18 +98,18 @@ fn label(content: &str, x: f64, y: f64, size: f64) -> Text {
     Text::new(content).set("x", x).set("y", y).set("font-size", size).set("fill", INK)
 }
 
-/// Where a manipulator is singular for a fixed orientation: each mode's curve of type 2 in its colour, the legs' curves of type 1 dashed; a map under
-/// them where one is given.
+/// Where a manipulator is singular for a fixed orientation: each mode's curve of type 2 in its colour, the legs' curves of type 1 grey, `legs` their
+/// pieces; a map under them where one is given.
 pub fn draw_singularities(
     robot: &Manipulator,
     phi: f64,
     window: &PlaneWindow,
     modes: &[(String, Vec<[Vector2<f64>; 2]>)],
-    legs: &[LegLocus],
+    legs: &[Vec<[Vector2<f64>; 2]>],
     map: Option<&PlaneMap>,
 ) -> String {
     let chart = Chart::new(window);
-    let mut inside = Group::new();
+    let (mut inside, mut background) = (Group::new(), Group::new());
     let mut legend = Group::new();
     let x = chart.beside();
     let mut y = TOP + 12.0;
@@ -128,7 +130,7 @@ pub fn draw_singularities(
                 .set("width", format!("{:.2}", cell.x + 0.3))
                 .set("height", format!("{:.2}", cell.y + 0.3))
                 .set("fill", colour(shade(*value)));
-            inside = inside.add(rectangle);
+            background = background.add(rectangle);
         }
         legend = legend.add(label(&format!("{} ({})", map.quantity.name(), map.signs), x, y, 12.0));
         for step in 0..=10 {
@@ -150,10 +152,7 @@ pub fn draw_singularities(
     }
     for (signs, pieces) in modes {
         let colour = COLOURS[modes.iter().position(|m| m.0 == *signs).unwrap_or(0) % COLOURS.len()];
-        let data: String = pieces
-            .iter()
-            .map(|[p, q]| format!("M{:.2} {:.2}L{:.2} {:.2}", chart.x(*p), chart.y(*p), chart.x(*q), chart.y(*q)))
-            .collect();
+        let data = strokes(&chart, pieces);
         if !data.is_empty() {
             inside = inside
                 .add(Path::new().set("d", data).set("stroke", colour).set("stroke-width", 1.8).set("fill", "none"));
@@ -168,44 +167,32 @@ pub fn draw_singularities(
         ));
         y += 18.0;
     }
-    for leg in legs {
-        for curve in &leg.curves {
-            inside = match *curve {
-                PlaneCurve::Circle { center, radius } => inside.add(
-                    Circle::new()
-                        .set("cx", chart.x(center))
-                        .set("cy", chart.y(center))
-                        .set("r", (radius * chart.scale).max(2.0))
-                        .set("fill", "none")
-                        .set("stroke", QUIET)
-                        .set("stroke-dasharray", "6 4"),
-                ),
-                PlaneCurve::Line { point, direction } => {
-                    let far = direction * 3.0 * (window.high - window.low).norm();
-                    let (p, q) = (point - far, point + far);
-                    inside.add(
-                        Line::new()
-                            .set("x1", chart.x(p))
-                            .set("y1", chart.y(p))
-                            .set("x2", chart.x(q))
-                            .set("y2", chart.y(q))
-                            .set("stroke", QUIET)
-                            .set("stroke-dasharray", "6 4"),
-                    )
-                }
-            };
-        }
+    let data = strokes(&chart, legs.iter().flatten());
+    if !data.is_empty() {
+        // Under the curves of type 2.
+        let edges = Path::new().set("d", data).set("stroke", EDGE).set("stroke-width", 1.2).set("fill", "none");
+        inside = Group::new().add(background).add(edges).add(inside);
+    } else {
+        inside = Group::new().add(background).add(inside);
     }
     let sample = Line::new().set("x1", x).set("x2", x + 22.0).set("y1", y - 4.0).set("y2", y - 4.0);
-    legend = legend.add(sample.set("stroke", QUIET).set("stroke-dasharray", "6 4")).add(label(
+    legend = legend.add(sample.set("stroke", EDGE).set("stroke-width", 1.2)).add(label(
         "type 1, ends of a leg's reach",
         x + 28.0,
         y,
         10.5,
     ));
-    let title = if robot.name.is_empty() { robot.family() } else { robot.name.clone() };
-    let subtitle = format!("{}  ·  singular positions at φ = {}°", robot.family(), number(phi.to_degrees()));
+    let (title, family) = heading(robot);
+    let subtitle = format!("{family}singular positions at φ = {}°", number(phi.to_degrees()));
     chart.document(&title, &subtitle, inside, legend)
+}
+
+/// Straight pieces as the data of one path.
+fn strokes<'a>(chart: &Chart, pieces: impl IntoIterator<Item = &'a [Vector2<f64>; 2]>) -> String {
+    let stroke = |[p, q]: &[Vector2<f64>; 2]| {
+        format!("M{:.2} {:.2}L{:.2} {:.2}", chart.x(*p), chart.y(*p), chart.x(*q), chart.y(*q))
+    };
+    pieces.into_iter().map(stroke).collect()
 }
 
 /// From low to high: dark blue, green, yellow.
@@ -259,7 +246,7 @@ pub fn draw_path(robot: &Manipulator, path: &FollowedPath) -> String {
         (true, None) => "complete".to_owned(),
         (false, _) => "stopped".to_owned(),
     };
-    let title = if robot.name.is_empty() { robot.family() } else { robot.name.clone() };
-    let subtitle = format!("{}  ·  mode {id} along {} rows  ·  {end}", robot.family(), path.rows.len());
+    let (title, family) = heading(robot);
+    let subtitle = format!("{family}mode {id} along {} rows  ·  {end}", path.rows.len());
     chart.document(&title, &subtitle, inside, legend)
 }

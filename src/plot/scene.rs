@@ -3,6 +3,7 @@
 use nalgebra::{Isometry2, Vector2};
 
 use crate::linkage::{AssemblyMode, Pose, Status};
+use crate::manipulator::Manipulator;
 use crate::solve::Account;
 
 /// How a joint looks.
@@ -20,8 +21,10 @@ pub(super) enum Mark {
     Body { corners: Vec<Vector2<f64>> },
     /// A guide of a slider, fixed to the ground (hatched) or to the platform.
     Rail { from: Vector2<f64>, to: Vector2<f64>, along: Vector2<f64>, fixed: bool },
-    /// The ground under a pivot, with the number of its leg.
-    Ground { at: Vector2<f64>, leg: usize },
+    /// The ground under a pivot.
+    Ground { at: Vector2<f64> },
+    /// The number of a leg, at its base.
+    Number { at: Vector2<f64>, leg: usize },
     /// A rigid link.
     Bar { from: Vector2<f64>, to: Vector2<f64> },
     /// A slider between two links.
@@ -46,6 +49,8 @@ impl Mark {
             Self::Block { .. } => 5,
             Self::Pin { .. } => 6,
             Self::Frame { .. } => 7,
+            // On top of everything, or links would hide it.
+            Self::Number { .. } => 8,
         }
     }
 
@@ -54,7 +59,7 @@ impl Mark {
         match self {
             Self::Body { corners } => corners.clone(),
             Self::Rail { from, to, .. } | Self::Bar { from, to } | Self::Telescope { from, to, .. } => vec![*from, *to],
-            Self::Ground { at, .. } | Self::Block { at, .. } | Self::Pin { at, .. } => vec![*at],
+            Self::Ground { at } | Self::Number { at, .. } | Self::Block { at, .. } | Self::Pin { at, .. } => vec![*at],
             Self::Frame { pose } => vec![pose.translation.vector],
         }
     }
@@ -88,6 +93,12 @@ pub(super) fn caption(mode: &AssemblyMode, signs: &str, violated: bool) -> Strin
         parts.push("outside limits".to_owned());
     }
     parts.join("   ")
+}
+
+/// The title of a picture, and what its second line begins with: the family, unless that is the title already.
+pub(super) fn heading(robot: &Manipulator) -> (String, String) {
+    let family = robot.family();
+    if robot.name.is_empty() { (family, String::new()) } else { (robot.name.clone(), format!("{family}  ·  ")) }
 }
 
 /// How many modes there are, of how many there could be.

@@ -53,7 +53,8 @@ pub(super) fn draw(mark: &Mark, canvas: &Canvas) -> Group {
     match mark {
         Mark::Body { corners } => body(&corners.iter().map(|corner| canvas.at(corner)).collect::<Vec<_>>()),
         Mark::Rail { from, to, along, fixed } => rail(canvas.at(from), canvas.at(to), on_page(along), *fixed),
-        Mark::Ground { at, leg } => ground(canvas.at(at), *leg),
+        Mark::Ground { at } => ground(canvas.at(at)),
+        Mark::Number { at, leg } => leg_number(canvas.at(at), *leg),
         Mark::Bar { from, to } => Group::new().add(line(&[canvas.at(from), canvas.at(to)], LINK, 3.2)),
         Mark::Telescope { from, to, look } => telescope(canvas.at(from), canvas.at(to), *look),
         Mark::Block { at, along, look } => block(canvas.at(at), on_page(along), *look),
@@ -97,7 +98,7 @@ fn rail(from: Vector2<f64>, to: Vector2<f64>, along: Vector2<f64>, fixed: bool) 
     group.add(Path::new().set("d", strokes).set("stroke", GROUND).set("stroke-width", 0.8))
 }
 
-fn ground(at: Vector2<f64>, leg: usize) -> Group {
+fn ground(at: Vector2<f64>) -> Group {
     let below = |x: f64, y: f64| at + Vector2::new(x, y);
     let foot = [below(0.0, 0.0), below(-7.0, 12.0), below(7.0, 12.0)];
     let mut strokes = String::new();
@@ -105,18 +106,28 @@ fn ground(at: Vector2<f64>, leg: usize) -> Group {
         let (top, bottom) = (below(x, 12.0), below(x - 4.0, 16.5));
         let _ = write!(strokes, "M{:.1} {:.1}L{:.1} {:.1}", top.x, top.y, bottom.x, bottom.y);
     }
-    let label = below(14.0, 16.0);
     Group::new()
         .add(path(&foot, true).set("fill", "#e4e7eb").set("stroke", GROUND).set("stroke-width", 1.2))
         .add(line(&[below(-11.0, 12.0), below(11.0, 12.0)], GROUND, 1.6))
         .add(Path::new().set("d", strokes).set("stroke", GROUND).set("stroke-width", 0.9))
-        .add(
-            Text::new(leg.to_string())
-                .set("x", format!("{:.1}", label.x))
-                .set("y", format!("{:.1}", label.y))
-                .set("font-size", 10)
-                .set("fill", QUIET),
-        )
+}
+
+/// On paper of its own, so that no link runs through it.
+fn leg_number(at: Vector2<f64>, leg: usize) -> Group {
+    let place = at + Vector2::new(14.0, 12.5);
+    let paper = Circle::new()
+        .set("cx", format!("{:.1}", place.x))
+        .set("cy", format!("{:.1}", place.y))
+        .set("r", 6.5)
+        .set("fill", PAPER)
+        .set("fill-opacity", 0.85);
+    let text = Text::new(leg.to_string())
+        .set("x", format!("{:.1}", place.x))
+        .set("y", format!("{:.1}", place.y + 3.6))
+        .set("text-anchor", "middle")
+        .set("font-size", 10)
+        .set("fill", INK);
+    Group::new().add(paper).add(text)
 }
 
 fn telescope(from: Vector2<f64>, to: Vector2<f64>, look: Look) -> Group {

@@ -53,7 +53,8 @@ fn draw_dyad(marks: &mut Vec<Mark>, dyad: &Dyad, pose: &Pose, leg: usize) {
         Dyad::RR { a, b, .. } => {
             let tip = pose.place(*b);
             marks.extend([
-                Mark::Ground { at: *a, leg },
+                Mark::Ground { at: *a },
+                Mark::Number { at: *a, leg },
                 Mark::Bar { from: *a, to: tip },
                 Mark::Pin { at: *a, look },
                 Mark::Pin { at: tip, look },
@@ -62,6 +63,7 @@ fn draw_dyad(marks: &mut Vec<Mark>, dyad: &Dyad, pose: &Pose, leg: usize) {
         Dyad::PR { a, u, b } => {
             let (tip, along) = (pose.place(*b), u.normalize());
             marks.extend([
+                Mark::Number { at: *a, leg },
                 Mark::Rail { from: *a, to: tip, along, fixed: true },
                 Mark::Block { at: tip, along, look },
                 Mark::Pin { at: tip, look },
@@ -76,7 +78,8 @@ fn draw_dyad(marks: &mut Vec<Mark>, dyad: &Dyad, pose: &Pose, leg: usize) {
             };
             let foot = *a - left * distance;
             marks.extend([
-                Mark::Ground { at: *a, leg },
+                Mark::Ground { at: *a },
+                Mark::Number { at: *a, leg },
                 Mark::Rail { from: pose.place(*b), to: foot, along, fixed: false },
                 Mark::Bar { from: *a, to: foot },
                 Mark::Block { at: foot, along, look },
@@ -92,8 +95,12 @@ fn draw_dyad(marks: &mut Vec<Mark>, dyad: &Dyad, pose: &Pose, leg: usize) {
 fn base_scene(triad: &Triad) -> Scene {
     let look = Look::default();
     let base = |(leg, dyad): (usize, &Dyad)| match dyad {
-        Dyad::RR { a, .. } | Dyad::RP { a, .. } => vec![Mark::Ground { at: *a, leg }, Mark::Pin { at: *a, look }],
-        Dyad::PR { a, u, .. } => vec![Mark::Rail { from: *a, to: *a, along: u.normalize(), fixed: true }],
+        Dyad::RR { a, .. } | Dyad::RP { a, .. } => {
+            vec![Mark::Ground { at: *a }, Mark::Number { at: *a, leg }, Mark::Pin { at: *a, look }]
+        }
+        Dyad::PR { a, u, .. } => {
+            vec![Mark::Number { at: *a, leg }, Mark::Rail { from: *a, to: *a, along: u.normalize(), fixed: true }]
+        }
         Dyad::PP { .. } => Vec::new(),
     };
     let marks = (1..).zip(triad.legs()).flat_map(base).collect();

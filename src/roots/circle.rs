@@ -267,9 +267,8 @@ impl Cells {
     fn of(t: &Harmonics, table: &Table) -> Option<Self> {
         let mut turned = [[0.0; 2]; 3];
         let mut sum = t.cosines[0].abs();
-        for k in 0..3 {
-            let ([c, s], a, b) = (table.turns[k], t.cosines[k + 1], t.sines[k]);
-            turned[k] = [a * c + b * s, b * c - a * s];
+        for (((turned, [c, s]), a), b) in turned.iter_mut().zip(table.turns).zip(&t.cosines[1..]).zip(t.sines) {
+            *turned = [a * c + b * s, b * c - a * s];
             sum += a.abs() + b.abs();
         }
         if !RANGE.contains(&sum) {
@@ -281,8 +280,7 @@ impl Cells {
         let (constant, second) = (all(t.cosines[0]), [all(turned[1][0]), all(turned[1][1])]);
         let (first, third) = ([all(turned[0][0]), all(turned[0][1])], [all(turned[2][0]), all(turned[2][1])]);
         let mut coefficients = [[Lanes::all(0.0); DEGREE + 1]; 4];
-        for j in 0..=DEGREE {
-            let [one, c2, s2, c1, c3, s1, s3] = table.coefficients[j];
+        for (j, &[one, c2, s2, c1, c3, s1, s3]) in table.coefficients.iter().enumerate() {
             let (even_cosines, even_sines) = (one * constant + c2 * second[0], s2 * second[1]);
             let odd_cosines = c1 * first[0] + c3 * third[0];
             let odd_sines = s1 * first[1] + s3 * third[1];

@@ -27,8 +27,13 @@ fn inputs_are_checked() {
 fn an_orientation_fixed_twice_is_refused_with_the_legs() {
     let expected = "legs 1 and 3 are both left with PP: the orientation is fixed twice and a translation is left free, so three \
                     actuators do not determine the pose";
-    let refused = robot(["_R_PP", "R_P_R", "PP_R_"]).forward(&[0.1, 5.0, 0.2]).expect_err("must be refused");
+    // The catalogue refuses such a family, for the same reason.
+    let legs = ["_R_PP", "R_P_R", "PP_R_"].map(|name| name.parse::<Leg>().expect("a leg type"));
+    let robot = Manipulator::new("", legs.to_vec()).expect("is sound");
+    let refused = robot.forward(&[0.1, 5.0, 0.2]).expect_err("must be refused");
     assert_eq!(refused.to_string(), expected);
+    let refused = Manipulator::of_family("_R_PP,R_P_R,PP_R_").expect_err("must be refused");
+    assert_eq!(refused.to_string(), format!("family \"_R_PP,R_P_R,PP_R_\": {expected}"));
 }
 
 #[test]

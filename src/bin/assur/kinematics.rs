@@ -4,12 +4,13 @@ use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 use assur::exchange::{
-    AngleUnit, InverseReport, ModelFile, Motion, PathReport, SingularitiesReport, TracedModes, VelocityReport, map_csv,
-    read_path,
+    AngleUnit, InverseReport, ModelFile, Motion, PathReport, ROW_SCALING, SingularitiesReport, TracedModes,
+    VelocityReport, map_csv, read_path,
 };
 use assur::nalgebra::{Matrix3, Vector2, Vector3};
 use assur::{
-    KinematicsError, MapQuantity, PathEventKind, PathSettings, Pose, Reading, SingularMatrix, Singularity, Velocity,
+    KinematicsError, MapQuantity, ModeChoice, PathEventKind, PathSettings, Pose, Reading, SingularMatrix, Singularity,
+    Velocity,
 };
 
 use crate::args::{Quantity, Shown};
@@ -123,29 +124,36 @@ pub(crate) fn velocity(
         accelerations: optional("accelerations", &asked.accelerations)?,
         wrench: optional("wrench", &asked.wrench)?,
     };
-    let signs = mode.map_or_else(|| "+".repeat(robot.legs.len()), str::to_owned);
     let failed = |error| about(file, error);
-    let velocity = robot.velocity(&pose, &signs).map_err(failed)?;
-    let singularity = robot.singularity(&pose, &signs, asked.length).map_err(failed)?;
+    let (chosen, choice) = robot.chosen_mode(&pose, mode).map_err(|error| match error {
+        KinematicsError::WhichMode { .. } => about(file, format!("{error}; name one with --mode")),
+        other => failed(other),
+    })?;
+    // A merged leg is named + and may have been asked for as -.
+    let signs = mode.unwrap_or(&chosen.signs);
+    let velocity = robot.velocity(&pose, signs).map_err(failed)?;
+    let singularity = robot.singularity(&pose, signs, asked.length).map_err(failed)?;
     output::print(&if json {
-        VelocityReport::new(&velocity, &signs, &singularity, &motion).to_json()
+        VelocityReport::new(&velocity, (signs, choice), &singularity, &motion).to_json()
     } else {
-        velocity_table(&model, &velocity, &signs, &singularity, &motion)
+        velocity_table(&model, &velocity, (signs, choice), &singularity, &motion)
     })
 }
 
 fn velocity_table(
     model: &ModelFile,
     velocity: &Velocity,
-    signs: &str,
+    (signs, choice): (&str, ModeChoice),
     singularity: &Singularity,
     motion: &Motion,
 ) -> String {
     let (robot, unit) = (&model.manipulator, model.angle_unit);
     let mut text = String::new();
     heading(&mut text, &title(model));
-    line(&mut text, format_args!("{}, mode {signs}, pose {}", robot.family(), shown_pose(&velocity.pose, unit)));
-    line(&mut text, format_args!("A (x', y', phi') + B inputs' = 0, angles in radians"));
+    let why = if choice == ModeChoice::Named { String::new() } else { format!(" ({})", choice.name()) };
+    line(&mut text, format_args!("{}, mode {signs}{why}, pose {}", robot.family(), shown_pose(&velocity.pose, unit)));
+    line(&mut text, format_args!("A (x', y', phi') + B inputs' = 0, angles in radians; rows not scaled:"));
+    line(&mut text, format_args!("  {ROW_SCALING}"));
     let mut matrices = table(&["leg", "A: x'", "y'", "phi'", "B: 1", "2", "3"]);
     let entries = |m: &Matrix3<f64>, row: usize| (0..3).map(|c| digits(m[(row, c)], SIDE_DIGITS)).collect::<Vec<_>>();
     for row in 0..3 {
@@ -179,14 +187,26 @@ fn velocity_table(
         None => {}
     }
     let length = digits(singularity.characteristic_length, SIDE_DIGITS);
+    let values = singularity.singular_values.map(|value| format!("{value:.4e}")).join("  ");
+    line(
+        &mut text,
+        format_args!("singular values  {values}  of A with moments over {length}, then each row of length 1"),
+    );
     line(
         &mut text,
         format_args!(
-            "smallest singular value of A  {:.4e}, of B  {:.4e}",
-            singularity.sigma_min, singularity.sigma_min_input
+            "smallest sine of B  {:.4e}  (rows as those of A, columns of length 1)",
+            singularity.sigma_min_input
         ),
     );
-    line(&mut text, format_args!("dexterity  {:.6}  (characteristic length {length})", singularity.dexterity));
+    line(
+        &mut text,
+        format_args!(
+            "dexterity  {:.6}  (of inverse(B) A with angles times {length}, inputs as they are)",
+            singularity.dexterity
+        ),
+    );
+    line(&mut text, format_args!("characteristic length  {length}"));
     let mut say = |what: &str, answer: Result<Vector3<f64>, SingularMatrix>| match answer {
         Ok(found) => {
             let found = found.iter().map(|value| digits(*value, SIDE_DIGITS)).collect::<Vec<_>>().join(", ");
@@ -231,7 +251,10 @@ pub(crate) fn singularities(file: &Path, asked: &AskedLoci, shown: &Shown) -> Re
         .collect::<Result<_, KinematicsError>>()
         .map_err(|error| about(file, error))?;
     // Legs with several actuators have traced curves but no exact one.
-    let locus = if asked.polynomial { robot.singularity_locus(phi).ok() } else { None };
+    let locus = match asked.polynomial {
+        true => robot.singularity_locus(phi).map_err(|error| error.to_string()),
+        false => Err("not asked for".to_owned()),
+    };
     let map = asked.map.map(|quantity| {
         let quantity = match quantity {
             Quantity::Dexterity => MapQuantity::Dexterity,
@@ -241,14 +264,15 @@ pub(crate) fn singularities(file: &Path, asked: &AskedLoci, shown: &Shown) -> Re
         robot.plane_map(quantity, phi, &names[0], None, &window, [MAP_CELLS; 2])
     });
     let map = map.transpose().map_err(|error| about(file, error))?;
-    let draw = || assur::plot::draw_singularities(robot, phi, &window, &traced, &legs, map.as_ref());
+    let edges: Vec<_> = legs.iter().map(|leg| robot.trace_leg_locus(leg, phi, &window)).collect();
+    let draw = || assur::plot::draw_singularities(robot, phi, &window, &traced, &edges, map.as_ref());
     let mut files = Files::default().with_pictures(shown.svg.as_deref(), shown.png.as_deref(), draw)?;
     if let (Some(path), Some(map)) = (&asked.csv, &map) {
         files = files.with(path, map_csv(map).into_bytes());
     }
     files.write()?;
     if shown.json {
-        let report = SingularitiesReport::new(phi, locus.as_ref(), &traced, &legs, map.as_ref());
+        let report = SingularitiesReport::new(phi, locus.as_ref().map_err(String::clone), &traced, &legs, map.as_ref());
         return output::print(&report.to_json());
     }
     let mut text = String::new();
@@ -256,20 +280,23 @@ pub(crate) fn singularities(file: &Path, asked: &AskedLoci, shown: &Shown) -> Re
     let at = format!("phi = {} {}", digits(asked.phi, POSE_DIGITS), unit.name());
     line(&mut text, format_args!("{}, singular positions at {at}", robot.family()));
     match &locus {
-        Some(locus) if locus.polynomial.vanishes() => line(&mut text, format_args!("type 2: in every position")),
-        Some(locus) if locus.degree() == 0 => line(&mut text, format_args!("type 2: in no position")),
-        Some(locus) => {
+        Ok(locus) if locus.polynomial.vanishes() => line(&mut text, format_args!("type 2: in every position")),
+        Ok(locus) if locus.degree() == 0 => line(&mut text, format_args!("type 2: in no position")),
+        Ok(locus) => {
             let terms = locus.polynomial.term_count();
             line(&mut text, format_args!("type 2: a curve of degree {}, {terms} terms, for all modes", locus.degree()));
             for (factor, power) in &locus.removed {
                 line(&mut text, format_args!("        removed to the power {power}: {factor}"));
             }
         }
-        None => {}
+        Err(reason) => line(
+            &mut text,
+            format_args!("type 2: no exact curve ({reason}); what is drawn is traced by the sign of det A"),
+        ),
     }
     for (signs, pieces) in &traced {
         let length: f64 = pieces.iter().map(|[p, q]| (p - q).norm()).sum();
-        line(&mut text, format_args!("        {signs}: length {} in the window", digits(length, 5)));
+        line(&mut text, format_args!("        {signs}: length {} within reach and limits", digits(length, 5)));
     }
     for leg in &legs {
         let curves: Vec<String> = leg.curves.iter().map(curve_text).collect();
@@ -366,6 +393,17 @@ pub(crate) fn path(
                 line(
                     &mut text,
                     format_args!("{ALARM}branch{ALARM:#} {place}: modes cannot be told apart, the path stops"),
+                );
+            }
+            PathEventKind::SelfMotion { phi } => {
+                let how = phi.map_or("turning".to_owned(), |phi| {
+                    format!("translating at phi = {} {}", digits(unit.from_rad(phi), POSE_DIGITS), unit.name())
+                });
+                line(
+                    &mut text,
+                    format_args!(
+                        "{ALARM}self-motion{ALARM:#} {place}: the platform is free to move, {how}; the path stops"
+                    ),
                 );
             }
             PathEventKind::Limit { violation, leaves } => {

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use anstyle::{AnsiColor, Style};
 use assur::exchange::{AngleUnit, CertificateReport, CheckReport, DyadEntry, ModelFile, SubjectReport, VerifyReport};
 use assur::num_complex::Complex64;
-use assur::{Assemblies, AssemblyMode, AssemblyModes, JointKind, Manipulator, Status, Triad, Verdict};
+use assur::{Assemblies, AssemblyMode, AssemblyModes, JointKind, Manipulator, Remark, Status, Triad, Verdict};
 use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle};
 
 use crate::args::Asked;
@@ -87,6 +87,9 @@ pub(crate) fn forward(model: &ModelFile, answer: &AssemblyModes, asked: &Asked) 
         }
     }
     group_facts(&mut text, &answer.group, unit, asked);
+    for remark in robot.remarks().into_iter().filter(|remark| matches!(remark, Remark::FreeLeg { .. })) {
+        line(&mut text, format_args!("note: {remark}"));
+    }
     text
 }
 
