@@ -202,6 +202,11 @@ const STEP: f64 = PI / 32.0;
 
 static TABLE: LazyLock<Table> = LazyLock::new(Table::new);
 
+/// Cosine and sine, each within two units of `2^-53`, whatever the platform's library does.
+fn direction(angle: f64) -> [f64; 2] {
+    Interval::cos_sin(angle).map(Interval::middle)
+}
+
 /// `(n choose k)`, zero where `k` is out of range.
 fn binomial(n: i32, k: i32) -> f64 {
     if k < 0 || k > n { 0.0 } else { (0..k).fold(1.0, |c, i| c * f64::from(n - i) / f64::from(i + 1)) }
@@ -215,8 +220,8 @@ impl Table {
             let terms = (0..=j).map(|i| {
                 let weight = binomial(3 + k, i) * binomial(3 - k, j - i) / binomial(6, j);
                 let turns = 2 * k * (2 * l + 1) + 4 * i - 2 * k - 2 * j;
-                let angle = f64::from(turns.rem_euclid(64)) * STEP;
-                [weight * angle.cos(), weight * angle.sin()]
+                let [cosine, sine] = direction(f64::from((turns + 31).rem_euclid(64) - 31) * STEP);
+                [weight * cosine, weight * sine]
             });
             terms.fold([0.0; 2], |sum, term| [sum[0] + term[0], sum[1] + term[1]])
         };
@@ -231,14 +236,15 @@ impl Table {
                 _ => (-1.0, PI - own),
             };
             let angle = angle + TURN;
-            CellPlace { angle, cosine: angle.cos(), sine: angle.sin(), sense }
+            let [cosine, sine] = direction(angle);
+            CellPlace { angle, cosine, sine, sense }
         };
         Self {
             coefficients: from_fn(|j| {
                 functions.map(|(k, part): (i32, usize)| Lanes(from_fn(|l| function(j as i32, k, l as i32)[part])))
             }),
             places: from_fn(place),
-            turns: [1.0, 2.0, 3.0].map(|k| [(k * TURN).cos(), (k * TURN).sin()]),
+            turns: [1.0, 2.0, 3.0].map(|k| direction(k * TURN)),
             tangent: STEP.tan(),
         }
     }
