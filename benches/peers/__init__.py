@@ -1,0 +1,1 @@
+"""Other systems on the same triads as assur, in one run; see run.py."""
