@@ -1,9 +1,9 @@
-//! All real modes, fast: one triad at a time. Counts and worst residuals are printed beside the times.
+//! All real modes, fast: one triad at a time, and in batches. Counts and worst residuals are printed beside the times.
 
 use std::hint::black_box;
 
 use assur::nalgebra::Vector2;
-use assur::{Dyad, ModesRoute, Offset, Triad};
+use assur::{Dyad, Manipulator, ModesRoute, Offset, Triad};
 use criterion::{Criterion, criterion_group, criterion_main};
 
 /// The ten triads without PP.
@@ -60,5 +60,26 @@ fn real_modes(criterion: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, real_modes);
+/// Ten thousand at once on one thread, and rows of inputs; times are for all of them.
+fn batch(criterion: &mut Criterion) {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool");
+    let triads = triads("RR-RR-RR", 10_000);
+    let batch = Triad::real_modes_batch(&triads);
+    let alone: usize = triads.iter().map(|triad| triad.real_modes().modes().len()).sum();
+    let modes: usize = batch.counts().iter().map(|&count| usize::from(count)).sum();
+    println!("batch of 10,000 RR-RR-RR: {modes} modes, {alone} one by one");
+    criterion.bench_function("batch of 10,000 RR-RR-RR, one thread", |b| {
+        b.iter(|| pool.install(|| Triad::real_modes_batch(black_box(&triads))))
+    });
+    let (robot, inputs) = Manipulator::of_family("3-RPR").expect("a family");
+    let rows: Vec<f64> =
+        (0..30_000).map(|i| inputs[i % 3] * (0.9 + 0.2 * ((i * 7919 % 9973) as f64 / 9973.0))).collect();
+    let found = robot.forward_batch(&rows);
+    println!("batch of 10,000 rows, 3-RPR: {} modes", found.counts().iter().map(|&c| usize::from(c)).sum::<usize>());
+    criterion.bench_function("batch of 10,000 rows, 3-RPR, one thread", |b| {
+        b.iter(|| pool.install(|| robot.forward_batch(black_box(&rows))))
+    });
+}
+
+criterion_group!(benches, real_modes, batch);
 criterion_main!(benches);

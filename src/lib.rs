@@ -95,9 +95,9 @@ pub use linkage::{
 pub use manipulator::{
     AssemblyModes, DescriptionError, FamilyError, FollowedPath, InverseSpecial, JointKind, JointsError, JointsReason,
     KinematicsError, Leg, LegLocus, LockError, LockedGroup, LocusError, Manipulator, ManipulatorMode, MapQuantity,
-    ModeChoice, PathError, PathEvent, PathEventKind, PathRow, PathSettings, Placement, PlaneCurve, PlaneMap,
-    PlaneWindow, Reading, Remark, SingularMatrix, Singularity, SingularityKind, SingularityLocus, Unreachable,
-    Velocity, Violation, WorkingMode, WorkingModes,
+    ModeChoice, ModesBatch, PathError, PathEvent, PathEventKind, PathRow, PathSettings, Placement, PlaneCurve,
+    PlaneMap, PlaneWindow, Reading, Remark, SingularMatrix, Singularity, SingularityKind, SingularityLocus,
+    Unreachable, Velocity, Violation, WorkingMode, WorkingModes,
 };
 pub use solve::{
     Account, Eliminant, EliminateError, Outcome, Plan, RejectedRoot, RootRejection, Solution, Solutions, SolveError,

@@ -19,6 +19,8 @@
 //! # }
 //! ```
 
+#[cfg(feature = "batch")]
+mod batch;
 mod check;
 mod claims;
 mod error;
@@ -32,6 +34,10 @@ mod tree;
 mod triad_file;
 mod write;
 
+#[cfg(feature = "batch")]
+pub use batch::{
+    BatchFileError, BatchWriteError, BatchWriter, InputBlock, InputBlocks, Reject, RowFormat, SolvedBlock,
+};
 pub use check::{CheckReport, LegReport, RemarkReport};
 pub use claims::{ClaimReport, ClaimedPoses, MissingReport, Subject, VerifyReport};
 pub use error::{FieldProblem, FileError, Format};

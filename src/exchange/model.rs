@@ -7,7 +7,7 @@ use nalgebra::Vector2;
 use super::error::{FieldProblem, FileError};
 use super::reader::{Field, Table};
 use super::tree::Tree;
-use crate::manipulator::{DescriptionError, JointKind, Leg, Manipulator, Placement};
+use crate::manipulator::{DescriptionError, JointKind, Leg, LockError, Manipulator, Placement};
 
 /// What a model file calls itself.
 pub(super) const SCHEMA: &str = "assur/manipulator/1";
@@ -68,6 +68,18 @@ impl AngleUnit {
         match kind {
             JointKind::Revolute => self.from_rad(value),
             JointKind::Prismatic => value,
+        }
+    }
+
+    /// What is wrong with inputs, angles in this unit.
+    pub fn of_lock_error(self, robot: &Manipulator, error: LockError) -> LockError {
+        match error {
+            LockError::OutOfRange { leg, joint, value, limit } => {
+                let kind = robot.legs[leg - 1].joints[joint - 1];
+                let written = |value| self.joint_from_rad(kind, value);
+                LockError::OutOfRange { leg, joint, value: written(value), limit: limit.map(written) }
+            }
+            other => other,
         }
     }
 }

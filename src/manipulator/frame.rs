@@ -20,7 +20,10 @@ pub(super) fn back(d: Vector2<f64>) -> Vector2<f64> {
 
 /// A direction of length one.
 pub(super) fn unit(d: Vector2<f64>) -> Vector2<f64> {
-    // Axes and directions already of length one pass unchanged.
+    // Axes, by far the most, need no root; directions already of length one pass unchanged.
+    if d == Vector2::x() {
+        return d;
+    }
     let length = d.x.hypot(d.y);
     if length == 1.0 { d } else { d / length }
 }

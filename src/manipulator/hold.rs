@@ -290,7 +290,7 @@ fn conditions_of(out: &mut Vec<(Condition, Play)>, leg: &Leg, held: &[(usize, f6
     let locked = LockedLeg::new(leg, &values);
     let (near, far) = (&locked.near, &locked.far);
     let quarter = |d: Vector2<f64>| Vector2::new(-d.y, d.x);
-    let idle: Vec<(usize, JointKind)> = locked.passive.clone();
+    let idle = locked.passive.clone();
     // What each held joint moves: everything before the first idle joint belongs to the base, after the last to the platform.
     let (first, last) = (idle.first().map_or(3, |i| i.0), idle.last().map_or(0, |i| i.0));
     let mut play = Play::default();

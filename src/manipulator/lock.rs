@@ -13,6 +13,7 @@
 //! The derivation `leg_reductions` works out all 21 leg types. A leg with two held joints pins or guides the platform; one with three
 //! places it; one with none lets it go.
 
+use arrayvec::ArrayVec;
 use nalgebra::Vector2;
 use thiserror::Error;
 
@@ -26,9 +27,9 @@ pub(super) struct LockedLeg {
     /// From the base frame to the first passive joint.
     pub near: Placement,
     /// Passive joints, each with the placement that follows it, save that the last one's is `far`.
-    pub passive: Vec<(usize, JointKind)>,
+    pub passive: ArrayVec<(usize, JointKind), 3>,
     /// Placements between consecutive passive joints.
-    pub between: Vec<Placement>,
+    pub between: ArrayVec<Placement, 3>,
     /// The frame after the last passive joint, in the platform frame.
     pub far: Placement,
 }
@@ -159,7 +160,8 @@ impl Manipulator {
             }
         }
         // Three passive joints or more in all are left free by a leg without actuator; the others hold the platform.
-        let holding: Vec<Reduced> = legs.iter().map(LockedLeg::reduce).filter(|r| *r != Reduced::Free).collect();
+        let holding: ArrayVec<Reduced, 3> =
+            legs.iter().map(LockedLeg::reduce).filter(|r| *r != Reduced::Free).collect();
         Ok(match holding[..] {
             [Reduced::Dyad(first), Reduced::Dyad(second), Reduced::Dyad(third)] => {
                 LockedGroup::Triad(Triad::new([first, second, third])?)
@@ -176,8 +178,8 @@ impl Manipulator {
     }
 
     /// Every leg with its actuated joints held, inputs checked.
-    pub(super) fn locked_legs(&self, inputs: &[f64]) -> Result<Vec<LockedLeg>, LockError> {
-        let actuated: Vec<(usize, usize)> = self.actuated_joints().collect();
+    pub(super) fn locked_legs(&self, inputs: &[f64]) -> Result<ArrayVec<LockedLeg, 3>, LockError> {
+        let actuated: ArrayVec<(usize, usize), 9> = self.actuated_joints().collect();
         if actuated.len() != inputs.len() {
             return Err(LockError::WrongCount { expected: actuated.len(), found: inputs.len() });
         }
@@ -192,7 +194,7 @@ impl Manipulator {
         }
         let held = |leg: usize| {
             let of_leg = actuated.iter().zip(inputs).filter(move |((l, _), _)| *l == leg);
-            of_leg.map(|((_, joint), &q)| (*joint, q)).collect::<Vec<_>>()
+            of_leg.map(|((_, joint), &q)| (*joint, q)).collect::<ArrayVec<_, 3>>()
         };
         Ok(self.legs.iter().enumerate().map(|(number, leg)| LockedLeg::new(leg, &held(number))).collect())
     }
@@ -231,10 +233,10 @@ impl LockedLeg {
     /// `held`: joints from 0 with their values.
     pub fn new(leg: &Leg, held: &[(usize, f64)]) -> Self {
         let mut near = leg.base;
-        let mut passive: Vec<(usize, JointKind)> = Vec::new();
+        let mut passive = ArrayVec::new();
         // One placement per passive joint, all that follows it up to the next.
-        let mut after: Vec<Placement> = Vec::new();
-        let mut append = |after: &mut Vec<Placement>, motion: &Placement| match after.last_mut() {
+        let mut after: ArrayVec<Placement, 3> = ArrayVec::new();
+        let mut append = |after: &mut ArrayVec<Placement, 3>, motion: &Placement| match after.last_mut() {
             Some(last) => *last = last.then(motion),
             None => near = near.then(motion),
         };
@@ -266,7 +268,7 @@ impl LockedLeg {
 
     fn reduce(&self) -> Reduced {
         let Self { near, far, .. } = self;
-        let kinds: Vec<JointKind> = self.passive.iter().map(|p| p.1).collect();
+        let kinds: ArrayVec<JointKind, 3> = self.passive.iter().map(|p| p.1).collect();
         use JointKind::{Prismatic as P, Revolute as R};
         match (&kinds[..], &self.between[..]) {
             ([R, R], [middle]) => {

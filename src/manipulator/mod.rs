@@ -2,6 +2,7 @@
 //!
 //! A [`Manipulator`] is described once; [`Manipulator::forward`] locks its actuators and asks the triad that is left.
 
+mod batch;
 mod catalogue;
 mod describe;
 mod follow;
@@ -19,6 +20,7 @@ mod trace;
 mod velocity;
 mod watch;
 
+pub use batch::ModesBatch;
 pub use catalogue::FamilyError;
 pub use describe::{DescriptionError, JointKind, JointsError, JointsReason, Leg, Manipulator, Placement};
 pub use follow::{FollowedPath, PathError, PathEvent, PathEventKind, PathRow, PathSettings};

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
 /// Every assembly mode of planar mechanisms.
@@ -13,6 +13,14 @@ use clap_complete::Shell;
 pub(crate) struct Arguments {
     #[command(subcommand)]
     pub(crate) command: Command,
+}
+
+/// The form of a file of rows.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Rows {
+    Csv,
+    Jsonl,
+    Parquet,
 }
 
 #[derive(Subcommand)]
@@ -39,13 +47,34 @@ pub(crate) enum Command {
         json: bool,
     },
     /// Finds every assembly mode for given actuator values.
-    #[command(after_help = "Example:  assur forward examples/3-rpr.toml --inputs=14.98,15.38,12 --svg modes.svg")]
+    #[command(
+        after_help = "Rows at once: --batch takes a file with the columns q1,q2,q3 (CSV, or JSON lines) and writes a row of modes for each; bad rows go to \
+        OUT.rejects.csv. A run that was stopped goes on where it was, by the same command.\n\
+        Example:  assur forward examples/3-rpr.toml --inputs=14.98,15.38,12 --svg modes.svg\n          \
+        assur forward examples/3-rpr.toml --batch inputs.csv --output modes.parquet"
+    )]
     Forward {
         /// Model file, TOML or JSON; - is standard input.
         model: PathBuf,
         /// The actuator values, leg 1 first: lengths, and angles in the model file's unit.
-        #[arg(long, value_name = "Q1,Q2,Q3", value_delimiter = ',', required = true, allow_hyphen_values = true)]
+        #[arg(
+            long,
+            value_name = "Q1,Q2,Q3",
+            value_delimiter = ',',
+            required_unless_present = "batch",
+            conflicts_with = "batch",
+            allow_hyphen_values = true
+        )]
         inputs: Vec<f64>,
+        /// Rows of actuator values, .csv or .jsonl; - is standard input, CSV.
+        #[arg(long, value_name = "IN", requires = "output", conflicts_with_all = ["certify", "polynomial", "complex", "svg", "png"])]
+        batch: Option<PathBuf>,
+        /// Where the rows of modes go, .csv, .jsonl or .parquet; - is standard output.
+        #[arg(long, short, value_name = "OUT", requires = "batch")]
+        output: Option<PathBuf>,
+        /// The form of the output where its name does not tell.
+        #[arg(long, value_enum, requires = "batch")]
+        format: Option<Rows>,
         #[command(flatten)]
         asked: Asked,
     },
@@ -222,7 +251,7 @@ pub(crate) struct Shown {
 }
 
 /// What a map shows.
-#[derive(Clone, Copy, clap::ValueEnum)]
+#[derive(Clone, Copy, ValueEnum)]
 pub(crate) enum Quantity {
     /// Smallest over largest singular value of the map from inputs to pose.
     Dexterity,

@@ -1,6 +1,5 @@
 //! `inverse`, `velocity`, `singularities`, `path`.
 
-use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 use assur::exchange::{
@@ -19,10 +18,6 @@ use crate::tables::{ALARM, POSE_DIGITS, SIDE_DIGITS, STRONG, digits, heading, li
 
 /// Cells of a map along each side.
 const MAP_CELLS: usize = 80;
-/// Rows between two redraws of the progress bar, and its width.
-const PROGRESS_ROWS: usize = 256;
-const PROGRESS_WIDTH: usize = 30;
-
 fn about(file: &Path, error: impl std::fmt::Display) -> Failure {
     Failure::About(file.display().to_string(), error.to_string())
 }
@@ -341,19 +336,9 @@ pub(crate) fn path(
     let rows = read_path(through, robot, unit)?;
     let from = if from.is_empty() { None } else { Some(pose_of(from, unit, file)?) };
     let count = rows.len();
-    let bar = std::io::stderr().is_terminal();
-    let progress = |done: usize| {
-        if bar && (done.is_multiple_of(PROGRESS_ROWS) || done == count) {
-            let filled = PROGRESS_WIDTH * done / count.max(1);
-            let (full, rest) = ("#".repeat(filled), ".".repeat(PROGRESS_WIDTH - filled));
-            // A progress bar that cannot be shown is no reason to stop.
-            let _ = write!(std::io::stderr(), "\r[{full}{rest}] {done}/{count}");
-        }
-    };
-    let followed = robot.follow_with(&rows, from, &PathSettings::default(), progress);
-    if bar {
-        let _ = writeln!(std::io::stderr());
-    }
+    let bar = output::progress(Some(count as u64), "{wide_bar} {pos} of {len} rows, {eta} left");
+    let followed = robot.follow_with(&rows, from, &PathSettings::default(), |done| bar.set_position(done as u64));
+    bar.finish_and_clear();
     let followed = followed.map_err(|error| about(through, error))?;
     let report = PathReport::from(&followed);
     let draw = || assur::plot::draw_path(robot, &followed);

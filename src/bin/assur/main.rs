@@ -1,6 +1,7 @@
 //! The command line: parses, calls one function of the library, prints.
 
 mod args;
+mod batch;
 mod derive;
 mod kinematics;
 mod output;
@@ -11,10 +12,10 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use args::{Arguments, Asked, Command};
+use assur::Manipulator;
 use assur::exchange::{
     AngleUnit, CheckReport, ClaimedPoses, ForwardReport, ModelFile, Subject, VerifyReport, read_triad,
 };
-use assur::{LockError, Manipulator};
 use clap::{CommandFactory, Parser};
 use output::{Failure, Files};
 
@@ -32,7 +33,10 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             let report = CheckReport::of(&ModelFile::read(&model)?);
             output::print(&if json { report.to_json() } else { tables::check(&report) })
         }
-        Command::Forward { model, inputs, asked } => forward(&model, &inputs, &asked),
+        Command::Forward { model, inputs, batch: None, asked, .. } => forward(&model, &inputs, &asked),
+        Command::Forward { model, batch: Some(input), output, format, asked, .. } => {
+            batch::run(&model, &input, output.as_deref(), format, asked.json)
+        }
         Command::Inverse { model, pose, json } => kinematics::inverse(&model, &pose, json),
         Command::Velocity { model, pose, mode, rates, accelerations, wrench, length, json } => {
             let asked = kinematics::AskedMotion { rates, accelerations, wrench, length };
@@ -79,26 +83,16 @@ fn forward(path: &Path, inputs: &[f64], asked: &Asked) -> Result<(), Failure> {
     let robot = &model.manipulator;
     let inputs = tables::inputs_in_radians(robot, inputs, model.angle_unit);
     let answer = if asked.certify { robot.certify(&inputs) } else { robot.forward(&inputs) };
-    let answer = answer.map_err(|error| Failure::About(path.display().to_string(), as_written(error, &model)))?;
+    let answer = answer.map_err(|error| {
+        let error = model.angle_unit.of_lock_error(robot, error);
+        Failure::About(path.display().to_string(), error.to_string())
+    })?;
     Files::default().with_drawings(asked, || assur::plot::draw_modes(robot, &answer))?.write()?;
     output::print(&if asked.json {
         ForwardReport::of_manipulator(&answer).to_json()
     } else {
         tables::forward(&model, &answer, asked)
     })
-}
-
-/// What is wrong with the inputs, angles in the unit of the model file.
-fn as_written(error: LockError, model: &ModelFile) -> String {
-    let error = match error {
-        LockError::OutOfRange { leg, joint, value, limit } => {
-            let kind = model.manipulator.legs[leg - 1].joints[joint - 1];
-            let written = |value| model.angle_unit.joint_from_rad(kind, value);
-            LockError::OutOfRange { leg, joint, value: written(value), limit: limit.map(written) }
-        }
-        other => other,
-    };
-    error.to_string()
 }
 
 fn triad(path: &Path, asked: &Asked) -> Result<(), Failure> {

@@ -1,13 +1,14 @@
 //! What leaves the program: standard output, files that appear whole or not at all, one-line errors.
 
 use std::fs;
-use std::io::{ErrorKind, Write};
+use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anstyle::{AnsiColor, Style};
 use assur::FamilyError;
 use assur::exchange::FileError;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::args::Asked;
 use crate::derive::UnknownDerivation;
@@ -22,6 +23,8 @@ pub(crate) enum Failure {
     Family(#[from] FamilyError),
     #[error(transparent)]
     PathFile(#[from] assur::exchange::PathFileError),
+    #[error(transparent)]
+    Batch(#[from] assur::exchange::BatchFileError),
     #[error(transparent)]
     Derivation(#[from] UnknownDerivation),
     /// A file and what is wrong with the question about it.
@@ -50,6 +53,14 @@ pub(crate) fn report(failure: &Failure) -> ExitCode {
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     let mut out = anstream::stdout().lock();
     out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(Failure::Print)
+}
+
+/// How far a long job has come, in the words of an indicatif template; shown on a terminal only, on standard error.
+pub(crate) fn progress(length: Option<u64>, template: &str) -> ProgressBar {
+    let target = if io::stderr().is_terminal() { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
+    let bar = ProgressBar::with_draw_target(length, target);
+    bar.set_style(ProgressStyle::with_template(template).expect("a template of the program's own"));
+    bar
 }
 
 /// Files to be written together: all appear whole, or none is touched.
