@@ -1,10 +1,15 @@
 //! All real modes, fast: one triad at a time, and in batches. Counts and worst residuals are printed beside the times.
 
+use std::f64::consts::FRAC_PI_4;
 use std::hint::black_box;
 
+use assur::algebra::Gaussian;
+use assur::linkage::{LegNumbers, consistency};
 use assur::nalgebra::Vector2;
+use assur::roots::{Harmonics, companion_roots};
 use assur::{Dyad, Manipulator, ModesRoute, Offset, Triad};
 use criterion::{Criterion, criterion_group, criterion_main};
+use num_complex::Complex64;
 
 /// The ten triads without PP.
 const NAMES: [&str; 10] = [
@@ -81,5 +86,80 @@ fn batch(criterion: &mut Criterion) {
     });
 }
 
-criterion_group!(benches, real_modes, batch);
+/// Ways to find the real roots of T on the circle, on the same polynomials: why the fast route takes Bernstein forms. Only those prove their count.
+fn roots(criterion: &mut Criterion) {
+    let harmonics: Vec<([f64; 8], Vec<Complex64>)> = triads("RR-RR-RR", 1000)
+        .iter()
+        .map(|triad| {
+            let legs = triad.legs().map(|leg| match leg {
+                Dyad::RR { a, b, length } => (a, b, length),
+                _ => unreachable!("three RR legs"),
+            });
+            let ((a0, b0, _), point) = (legs[0], |p: Vector2<f64>| Gaussian::new(p.x / 10.0, p.y / 10.0));
+            let legs = legs.map(|(a, b, length)| LegNumbers::Circle {
+                alpha: point(a - a0),
+                beta: point(b - b0),
+                length: length / 10.0,
+            });
+            let value = |k: usize| {
+                let (s, c) = (k as f64 * FRAC_PI_4).sin_cos();
+                consistency(&legs, &c, &s)
+            };
+            let values: [f64; 8] = std::array::from_fn(value);
+            // The coefficients of theta^0 … theta^6, by Fourier's formula.
+            let coefficient = |k: i32| -> Complex64 {
+                (0..8).map(|j| values[j as usize] * Complex64::from_polar(0.125, -f64::from(k * j) * FRAC_PI_4)).sum()
+            };
+            (values, (-3..=3).map(coefficient).collect())
+        })
+        .collect();
+    let on_circle = |roots: &[Complex64]| roots.iter().filter(|theta| (theta.norm() - 1.0).abs() < 1e-7).count();
+    let ways: [(&str, &dyn Fn(&[f64; 8], &[Complex64]) -> usize); 3] = [
+        ("Bernstein forms", &|values, _| {
+            Harmonics::from_samples(values, 3, 1e-14).real_roots().map_or(0, |roots| roots.count())
+        }),
+        ("Aberth's iteration", &|_, coefficients| on_circle(&aberth(coefficients))),
+        ("companion matrix", &|_, coefficients| {
+            companion_roots(coefficients).map_or(0, |roots| on_circle(&roots.finite))
+        }),
+    ];
+    for (name, way) in ways {
+        let found: usize = harmonics.iter().map(|(values, coefficients)| way(values, coefficients)).sum();
+        println!("{name}: {found} real roots of 1000 polynomials");
+        let mut at = 0;
+        criterion.bench_function(&format!("roots of T, {name}"), |b| {
+            b.iter(|| {
+                at = (at + 1) % 1000;
+                way(black_box(&harmonics[at].0), black_box(&harmonics[at].1))
+            })
+        });
+    }
+}
+
+/// All roots at once (Aberth 1973), from points about the unit circle.
+fn aberth(coefficients: &[Complex64]) -> [Complex64; 6] {
+    let mut roots: [Complex64; 6] =
+        std::array::from_fn(|k| Complex64::from_polar(0.9 + 0.05 * k as f64, k as f64 + 0.4));
+    for _ in 0..60 {
+        let mut largest = 0.0f64;
+        for k in 0..6 {
+            let (mut value, mut slope) = (Complex64::ZERO, Complex64::ZERO);
+            for c in coefficients.iter().rev() {
+                slope = slope * roots[k] + value;
+                value = value * roots[k] + c;
+            }
+            let newton = value / slope;
+            let push: Complex64 = (0..6).filter(|&j| j != k).map(|j| (roots[k] - roots[j]).inv()).sum();
+            let step = newton / (Complex64::ONE - newton * push);
+            roots[k] -= step;
+            largest = largest.max(step.norm_sqr());
+        }
+        if largest < 1e-20 {
+            break;
+        }
+    }
+    roots
+}
+
+criterion_group!(benches, real_modes, roots, batch);
 criterion_main!(benches);

@@ -72,7 +72,7 @@ impl Triad {
     /// ])?;
     /// let proved = triad.prove();
     /// assert_eq!((proved.modes.len(), proved.route), (6, ProofRoute::Filter));
-    /// assert!(proved.modes.iter().all(|mode| mode.pose_box.iter().all(|[lo, hi]| hi - lo < 1e-12)));
+    /// assert!(proved.modes.iter().all(|mode| mode.pose_box.iter().all(|[lo, hi]| hi - lo < 1e-10)));
     /// # Ok::<(), assur::TriadError>(())
     /// ```
     pub fn prove(&self) -> ProvedModes {
