@@ -18,7 +18,7 @@
 //! | RP, normal `m = i v` | `R m` | `(R m)·k + delta` |
 //!
 //! With an RR leg as reference, `u·u = l1²` and two rows give `T = |e2 g3 - e3 g2|² - l1² (g2 x g3)²`; without one, three rows
-//! give their determinant. `T` has half the degree of [`triad_degree`], and its roots are the orientations
+//! give their determinant. `T` has half the degree of [`crate::triad_degree`], and its roots are the orientations
 //! of the assembly modes. The derivation `triad_sextic` compares it with the Sylvester route, symbol by symbol.
 //!
 //! Source: Gosselin, Sefrioui, Richard 1992 for RR-RR-RR; the rows of sliders are ours.
@@ -224,7 +224,7 @@ impl Triad {
         (!translating).then(|| self.degree() / 2)
     }
 
-    /// How many assemblies there can be: the number of finite complex solutions of a generic triad of this name (see [`triad_degree`]).
+    /// How many assemblies there can be: the number of finite complex solutions of a generic triad of this name (see [`crate::triad_degree`]).
     pub fn degree(&self) -> usize {
         let mut counts = [0; 4];
         for leg in self.legs() {
