@@ -113,13 +113,12 @@ fn roots(criterion: &mut Criterion) {
             (values, (-3..=3).map(coefficient).collect())
         })
         .collect();
-    let on_circle = |roots: &[Complex64]| roots.iter().filter(|theta| (theta.norm() - 1.0).abs() < 1e-7).count();
-    let ways: [(&str, &dyn Fn(&[f64; 8], &[Complex64]) -> usize); 3] = [
-        ("Bernstein forms", &|values, _| {
+    let ways: [(&str, Way); 3] = [
+        ("Bernstein forms", |values, _| {
             Harmonics::from_samples(values, 3, 1e-14).real_roots().map_or(0, |roots| roots.count())
         }),
-        ("Aberth's iteration", &|_, coefficients| on_circle(&aberth(coefficients))),
-        ("companion matrix", &|_, coefficients| {
+        ("Aberth's iteration", |_, coefficients| on_circle(&aberth(coefficients))),
+        ("companion matrix", |_, coefficients| {
             companion_roots(coefficients).map_or(0, |roots| on_circle(&roots.finite))
         }),
     ];
@@ -134,6 +133,13 @@ fn roots(criterion: &mut Criterion) {
             })
         });
     }
+}
+
+/// Counts the real roots of a polynomial given by eight values and by its coefficients.
+type Way = fn(&[f64; 8], &[Complex64]) -> usize;
+
+fn on_circle(roots: &[Complex64]) -> usize {
+    roots.iter().filter(|theta| (theta.norm() - 1.0).abs() < 1e-7).count()
 }
 
 /// All roots at once (Aberth 1973), from points about the unit circle.

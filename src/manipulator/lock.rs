@@ -145,6 +145,10 @@ impl Manipulator {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn lock(&self, inputs: &[f64]) -> Result<LockedGroup, LockError> {
+        self.check_inputs(inputs)?;
+        if let Some(dyads) = self.three_dyads(inputs) {
+            return Ok(LockedGroup::Triad(Triad::new(dyads)?));
+        }
         let legs = self.locked_legs(inputs)?;
         let fixed = |leg: &LockedLeg| matches!(leg.reduce(), Reduced::Dyad(Dyad::PP { .. }) | Reduced::Guided(..));
         let mut fixing = (1..).zip(&legs).filter(|(_, leg)| fixed(leg)).map(|(number, _)| number);
@@ -177,13 +181,18 @@ impl Manipulator {
         })
     }
 
-    /// Every leg with its actuated joints held, inputs checked.
-    pub(super) fn locked_legs(&self, inputs: &[f64]) -> Result<ArrayVec<LockedLeg, 3>, LockError> {
-        let actuated: ArrayVec<(usize, usize), 9> = self.actuated_joints().collect();
-        if actuated.len() != inputs.len() {
-            return Err(LockError::WrongCount { expected: actuated.len(), found: inputs.len() });
+    /// The dyads of three legs with one actuator each, none of them PP: the common case, without the general chains. Inputs are checked.
+    fn three_dyads(&self, inputs: &[f64]) -> Option<[Dyad; 3]> {
+        let ([first, second, third], &[p, q, r]) = (&self.legs[..], inputs) else { return None };
+        Some([LockedLeg::one_held(first, p)?, LockedLeg::one_held(second, q)?, LockedLeg::one_held(third, r)?])
+    }
+
+    fn check_inputs(&self, inputs: &[f64]) -> Result<(), LockError> {
+        let expected = self.actuated_joints().count();
+        if expected != inputs.len() {
+            return Err(LockError::WrongCount { expected, found: inputs.len() });
         }
-        for (&(leg, joint), &value) in actuated.iter().zip(inputs) {
+        for ((leg, joint), &value) in self.actuated_joints().zip(inputs) {
             let description = &self.legs[leg];
             if !value.is_finite() {
                 return Err(LockError::NotFinite { leg: leg + 1, joint: joint + 1, value });
@@ -192,6 +201,13 @@ impl Manipulator {
                 return Err(LockError::OutOfRange { leg: leg + 1, joint: joint + 1, value, limit });
             }
         }
+        Ok(())
+    }
+
+    /// Every leg with its actuated joints held, inputs checked.
+    pub(super) fn locked_legs(&self, inputs: &[f64]) -> Result<ArrayVec<LockedLeg, 3>, LockError> {
+        self.check_inputs(inputs)?;
+        let actuated: ArrayVec<(usize, usize), 9> = self.actuated_joints().collect();
         let held = |leg: usize| {
             let of_leg = actuated.iter().zip(inputs).filter(move |((l, _), _)| *l == leg);
             of_leg.map(|((_, joint), &q)| (*joint, q)).collect::<ArrayVec<_, 3>>()
@@ -261,6 +277,28 @@ impl LockedLeg {
         Self { near, passive, between: after, far }
     }
 
+    /// The dyad of a leg with one actuated joint, held; the same numbers as by [`LockedLeg::new`]. `None` for other legs and for PP.
+    fn one_held(leg: &Leg, q: f64) -> Option<Dyad> {
+        let [first, second, third] = leg.joints;
+        let motion = |kind| Placement::joint(kind, q);
+        match leg.actuated {
+            [true, false, false] => {
+                let near = leg.base.then(&motion(first)).then(&leg.links[0]);
+                dyad(&near, [second, third], &leg.links[1], &leg.platform)
+            }
+            [false, true, false] => {
+                let middle = leg.links[0].then(&motion(second)).then(&leg.links[1]);
+                dyad(&leg.base, [first, third], &middle, &leg.platform)
+            }
+            [false, false, true] => {
+                let last = leg.links[1].then(&motion(third));
+                let far = if last == Placement::default() { leg.platform } else { leg.platform.then(&last.inverse()) };
+                dyad(&leg.base, [first, second], &leg.links[0], &far)
+            }
+            _ => None,
+        }
+    }
+
     /// The platform's pose where every joint is held.
     pub fn placed(&self) -> Pose {
         self.near.then(&self.far.inverse()).pose()
@@ -271,18 +309,8 @@ impl LockedLeg {
         let kinds: ArrayVec<JointKind, 3> = self.passive.iter().map(|p| p.1).collect();
         use JointKind::{Prismatic as P, Revolute as R};
         match (&kinds[..], &self.between[..]) {
-            ([R, R], [middle]) => {
-                Reduced::Dyad(Dyad::RR { a: near.at, b: far.at, length: middle.at.x.hypot(middle.at.y) })
-            }
-            ([P, R], [middle]) => Reduced::Dyad(Dyad::PR { a: near.then(middle).at, u: near.direction, b: far.at }),
-            ([R, P], [middle]) => {
-                let distance = -times(unit(back(middle.direction)), middle.at).y;
-                Reduced::Dyad(Dyad::RP {
-                    a: near.at,
-                    b: far.at,
-                    v: far.direction,
-                    offset: offset(distance, far.direction),
-                })
+            (&[first, second], [middle]) if [first, second] != [P, P] => {
+                Reduced::Dyad(dyad(near, [first, second], middle, far).expect("a dyad other than PP"))
             }
             ([P, P], [middle]) => {
                 let turned = times(times(near.direction, middle.direction), back(far.direction));
@@ -300,9 +328,62 @@ impl LockedLeg {
     }
 }
 
+/// What two passive joints leave, the part between them `middle`; `None` for PP, whose dyad is an angle.
+fn dyad(near: &Placement, kinds: [JointKind; 2], middle: &Placement, far: &Placement) -> Option<Dyad> {
+    use JointKind::{Prismatic as P, Revolute as R};
+    Some(match kinds {
+        [R, R] => Dyad::RR { a: near.at, b: far.at, length: middle.at.x.hypot(middle.at.y) },
+        [P, R] => Dyad::PR { a: near.then(middle).at, u: near.direction, b: far.at },
+        [R, P] => {
+            let distance = -times(unit(back(middle.direction)), middle.at).y;
+            Dyad::RP { a: near.at, b: far.at, v: far.direction, offset: offset(distance, far.direction) }
+        }
+        [P, P] => return None,
+    })
+}
+
 /// A direction that came from an angle has length one up to rounding; its offset is taken as `delta`, undivided. One that
 /// was given as a vector keeps the distance.
 fn offset(distance: f64, v: Vector2<f64>) -> Offset {
     let near_one = (v.norm_squared() - 1.0).abs() <= 8.0 * f64::EPSILON;
     if near_one { Offset::TimesDirection(distance) } else { Offset::Distance(distance) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::manipulator::Manipulator;
+
+    #[test]
+    fn the_common_case_has_the_numbers_of_the_general_one() {
+        let mut compared = 0;
+        for joints in ["RRR", "RRP", "RPR", "PRR", "RPP", "PRP", "PPR"] {
+            for held in 0..3 {
+                let named: Vec<String> = joints
+                    .chars()
+                    .enumerate()
+                    .map(|(k, j)| if k == held { format!("_{j}_") } else { j.into() })
+                    .collect();
+                let leg = Leg {
+                    base: Placement::turned(1.0, -2.0, 0.3),
+                    links: [
+                        Placement::turned(0.7, 0.2, -1.1),
+                        Placement { at: Vector2::new(2.0, 0.1), direction: Vector2::new(3.0, 4.0) },
+                    ],
+                    platform: Placement::turned(-0.4, 0.9, 2.0),
+                    ..named.concat().parse().expect("a leg")
+                };
+                for q in [0.0, 0.37, -2.5] {
+                    match LockedLeg::new(&leg, &[(held, q)]).reduce() {
+                        Reduced::Dyad(Dyad::PP { .. }) => assert_eq!(LockedLeg::one_held(&leg, q), None),
+                        reduced => assert_eq!(LockedLeg::one_held(&leg, q).map(Reduced::Dyad), Some(reduced)),
+                    }
+                    compared += 1;
+                }
+            }
+        }
+        assert_eq!(compared, 63);
+        let (robot, inputs) = Manipulator::of_family("3-RPR").expect("a family");
+        assert!(robot.three_dyads(&inputs).is_some());
+    }
 }
