@@ -89,8 +89,10 @@ fn compare(triad: &Triad) -> Result<bool, String> {
         let turn = std::f64::consts::TAU;
         let found = proved.modes.iter().filter(|p| {
             let [x, y, phi] = p.pose_box;
-            inside(mode.pose.x, x, 1e-9)
-                && inside(mode.pose.y, y, 1e-9)
+            // Nine digits of a place as far away as it is.
+            let slack = 1e-9 * (1.0 + mode.pose.x.hypot(mode.pose.y));
+            inside(mode.pose.x, x, slack)
+                && inside(mode.pose.y, y, slack)
                 && [0.0, turn, -turn].iter().any(|t| inside(mode.pose.phi + t, phi, 1e-9))
         });
         if found.count() != 1 || mode.multiplicity != 1 || mode.residual > 1e-13 || mode.det_a == 0.0 {

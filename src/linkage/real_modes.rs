@@ -70,8 +70,8 @@ impl RealModes {
 impl Triad {
     /// Every real assembly mode, fast: the same modes as [`Triad::assemble`] lists.
     ///
-    /// **Shape**: at most six modes, sorted by `phi`, then `x`, then `y`. **Units and frame**: as [`Triad::assemble`]. **Accuracy**: poses good to `1e-15` times the group's size over
-    /// [`RealMode::det_a`]'s share of its largest value, and never fewer than nine digits. **Proof**: the number of modes is exact, by a bound on all rounding errors or by integers.
+    /// **Shape**: at most six modes, sorted by `phi`, then `x`, then `y`. **Units and frame**: as [`Triad::assemble`]. **Accuracy**: at least nine digits of the
+    /// distance from the group, as a rule fifteen. **Proof**: the number of modes is exact, by a bound on all rounding errors or by integers.
     /// **Cost**: below a microsecond, a millisecond where the bound does not decide (about one random triad in a hundred thousand; `benches/real_modes.rs`).
     ///
     /// ```
