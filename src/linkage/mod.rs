@@ -1,7 +1,7 @@
 //! Planar Assur groups: what is left of a mechanism when its drivers are held.
 //!
 //! A [`Triad`] is a platform on three [`Dyad`]s; [`Triad::assemble`] finds every way to put it together. A [`TwoLinkGroup`] is one of
-//! the five groups of class II.
+//! the five groups of class II. A [`Truss`] is a group of any size with revolute joints, together with its ground.
 
 mod assemble;
 mod assemblies;
@@ -25,6 +25,7 @@ mod real_modes;
 mod slider_quadrics;
 mod special;
 mod triad;
+mod truss;
 mod vanishing;
 mod verify;
 
@@ -44,3 +45,6 @@ pub use real_modes::{MOST_MODES, ModesRoute, RealMode, RealModes};
 pub use slider_quadrics::{SliderPose, SliderQuadricsError, SliderSolutions, rp_rp_rp_quartic};
 pub use special::NearMiss;
 pub use triad::{LegNumbers, Row, Rows, consistency, leg_row, triad_rows};
+pub use truss::{
+    BaranovTruss, GraphError, Truss, TrussAssemblies, TrussAssembly, TrussError, TrussJoint, baranov_trusses,
+};
