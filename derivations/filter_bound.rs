@@ -85,7 +85,7 @@ impl Random {
             let (alpha, beta) = (point(), point());
             let length = point().re.abs();
             if near {
-                LegNumbers::Circle { alpha: zero.clone(), beta: zero.clone(), length }
+                LegNumbers::Circle { alpha: zero, beta: zero, length }
             } else {
                 LegNumbers::Circle { alpha, beta, length }
             }

@@ -184,3 +184,18 @@ fn bad_input_is_refused_by_name() {
     assert!(refused(&doubled, 5, 0).starts_with("no Assur group: links 0, 3 with 2 joints between them, mobility -1"));
     assert_eq!(refused(&triad([[1.0, 2.0]; 6]), 5, 0), TrussError::NoLength.to_string());
 }
+
+#[cfg(feature = "exchange")]
+#[test]
+fn the_report_holds_what_the_contract_says() {
+    use assur::exchange::{GroupReport, parse_group};
+    let truss = parse_group(include_str!("../examples/seven-link.json"), "seven-link.json").expect("a truss");
+    let report: Value =
+        serde_json::from_str(&GroupReport::new(&truss, &truss.assemble(), true).to_json()).expect("json");
+    assert_eq!(report["schema"], "assur/group-report/1");
+    assert_eq!((&report["status"], &report["truss"]), (&"complete".into(), &"7#0".into()));
+    assert_eq!((&report["count"], &report["expected"], &report["missing"]), (&18.into(), &18.into(), &0.into()));
+    let assemblies = report["assemblies"].as_array().expect("a list");
+    assert_eq!(assemblies.len(), 18);
+    assert!(assemblies.iter().all(|a| a["theta"].as_array().is_some_and(|theta| theta.len() == 6)));
+}

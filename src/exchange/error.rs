@@ -4,7 +4,7 @@ use std::fmt;
 
 use thiserror::Error;
 
-use crate::linkage::TriadError;
+use crate::linkage::{CouplerError, TriadError, TrussError};
 use crate::manipulator::DescriptionError;
 
 /// The two forms of a file.
@@ -67,6 +67,22 @@ pub enum FileError {
         file: String,
         /// What is wrong.
         error: DescriptionError,
+    },
+    /// The fields make no coupler curve.
+    #[error("{file}: {error}")]
+    Coupler {
+        /// The file.
+        file: String,
+        /// What is wrong.
+        error: CouplerError,
+    },
+    /// The fields make no Assur group.
+    #[error("{file}: {error}")]
+    Truss {
+        /// The file.
+        file: String,
+        /// What is wrong.
+        error: TrussError,
     },
     /// The fields make no triad.
     #[error("{file}: {error}")]

@@ -8,6 +8,7 @@ mod assemblies;
 mod certificate;
 mod closure_row;
 mod constraint;
+mod coupler;
 mod det_a;
 mod dyad;
 mod exact_box;
@@ -19,6 +20,7 @@ mod loop_box;
 mod name;
 mod numbers;
 mod pinned;
+mod pivoting;
 mod place;
 mod prove;
 mod real_modes;
@@ -35,6 +37,10 @@ pub use assemblies::{
 };
 pub use certificate::{Certificate, ProofSubject};
 pub use constraint::{RotationNumbers, constraint_system, sylvester_plan};
+pub use coupler::{
+    Biquadratic, Circuit, CouplerCurve, CouplerError, CouplerSide, DoublePoint, DoublePointKind, GrashofClass,
+    InputRange, Intersection, Intersections, Partner, SideNumbers, coupler_equation,
+};
 pub use dyad::{Guide, TwoLinkAssemblies, TwoLinkAssembly, TwoLinkError, TwoLinkGroup, TwoLinkSpecial};
 pub use group::{Dyad, Offset, Pose, Triad, TriadError, triad_degree};
 pub use judge::{Claim, Judgement};

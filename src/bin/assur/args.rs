@@ -140,6 +140,28 @@ pub(crate) enum Command {
         #[command(flatten)]
         shown: Shown,
     },
+    /// Describes a coupler curve and finds where it meets a line, a circle or another.
+    #[command(after_help = "Example:  assur coupler examples/coupler.json --svg curve.svg")]
+    Coupler {
+        /// Coupler problem file, JSON or TOML; - is standard input.
+        file: PathBuf,
+        /// Lists the non-real intersections too.
+        #[arg(long)]
+        complex: bool,
+        #[command(flatten)]
+        shown: Shown,
+    },
+    /// Finds every way to put an Assur group of revolute joints together, of up to eleven links.
+    #[command(after_help = "Example:  assur group examples/seven-link.json --svg assemblies.svg")]
+    Group {
+        /// Group problem file, JSON or TOML; - is standard input.
+        file: PathBuf,
+        /// Lists the non-real solutions too.
+        #[arg(long)]
+        complex: bool,
+        #[command(flatten)]
+        shown: Shown,
+    },
     /// Finds every way to put a triad together.
     #[command(after_help = "Example:  assur triad problem.json --complex")]
     Triad {
