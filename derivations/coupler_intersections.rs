@@ -17,7 +17,7 @@ Symbols.  F, G          the curves' equations, of degree 3 in z and in w = z'
           a, b, c       the foci of F: pivots, and (a q - b p) / (q - p)
 
 Source.   The product of two projective lines for the count; the table of special cases was found by
-          Groebner bases modulo a prime, and is recounted here by resultants modulo another, exactly.";
+          Groebner bases modulo a prime, and is recounted here by resultants modulo another.";
 
 /// Pivots, guided points and cranks.
 type Numbers = ([[f64; 2]; 2], [[f64; 2]; 2], [f64; 2]);

@@ -25,7 +25,8 @@ Symbols.  a, b, r, s    pivots and cranks          p, q     guided points, in th
           theta         rotation of the coupler    '        conjugate; of theta, 1/theta
           W1, W2        (z-a)(w-a') + p p' - r^2, (z-b)(w-b') + q q' - s^2
 
-Source.   Roberts 1875 for tricircularity and the third focus; the form N N* + D^2 is worked out here.
+Source.   Roberts 1875 for tricircularity and the third focus; the form N N* + D^2 is worked out
+          here.
           Identities are checked at 40 seeded random integers of six digits; a polynomial of degree 16
           that is not zero vanishes at one of them with a chance below 1e-5, at all below 1e-200.";
 

@@ -49,8 +49,8 @@ linear in the products of l - 1 and of l unknowns. There are C(2l-1, l-1) such r
 Together C(2l-1, l-1) + C(2l-1, l) = C(2l, l) rows in as many products: 2, 6, 20, 70 for one to four loops.",
     );
     for (l, size) in [(1usize, 2usize), (2, 6), (3, 20), (4, 70)] {
-        // A Gaussian solution x, t_j of modulus one over its inverse would be a rotation; here any numbers do, cleared of denominators.
-        let values: Vec<Complex> = (0..2 * l).map(|_| number(&mut dice)).collect();
+        // Rotations but for their size; any numbers do, the inverses cleared of denominators.
+        let values: Vec<Complex> = (0..2 * l).map(|_| dice.turn().0).collect();
         let whole = values.iter().fold(Complex::one(), |product, v| product * v.clone());
         let cleared: Vec<Complex> = (0..2 * l)
             .map(|k| (0..2 * l).filter(|j| *j != k).fold(Complex::one(), |product, j| product * values[j].clone()))
@@ -82,10 +82,9 @@ Together C(2l-1, l-1) + C(2l-1, l) = C(2l, l) rows in as many products: 2, 6, 20
             let terms = entries.map(|((a, b), v)| (a.clone() + values[0].clone() * b.clone()) * v.clone());
             terms.fold(Complex::zero(), |sum, term| sum + term) == Complex::zero()
         });
-        page.holds(
-            &format!("eliminate::DixonPencil, l = {l}: size {size}, and a planted solution lies in the kernel"),
-            vanishes && pencil.monomials().len() == size,
-        );
+        let statement =
+            format!("eliminate::DixonPencil, l = {l}: size {size}, and a planted solution lies in the kernel");
+        page.equal(&statement, &(pencil.monomials().len(), vanishes), &(size, true));
     }
     page.step(
         "The triad",

@@ -214,16 +214,16 @@ fn traced_points_satisfy_the_equation_and_the_linkage() {
                 }
                 assert!(sum.norm() < 1e-10 * size, "{:e} of {size:e}: {curve:?}", sum.norm());
                 for side in curve.sides() {
-                    let (arm, miss): (Vector2<f64>, Box<dyn Fn(Vector2<f64>) -> f64>) = match *side {
-                        CouplerSide::Circle { pivot, radius, arm } => {
-                            (arm, Box::new(move |at| (at - pivot).norm() - radius))
-                        }
-                        CouplerSide::Line { point, direction, arm } => {
-                            (arm, Box::new(move |at| direction.normalize().perp(&(at - point))))
-                        }
+                    let arm = match *side {
+                        CouplerSide::Circle { arm, .. } | CouplerSide::Line { arm, .. } => arm,
                     };
                     let joint = at + theta * Complex64::new(arm.x, arm.y);
-                    assert!(miss(Vector2::new(joint.re, joint.im)).abs() < 1e-9, "{curve:?}");
+                    let joint = Vector2::new(joint.re, joint.im);
+                    let miss = match *side {
+                        CouplerSide::Circle { pivot, radius, .. } => (joint - pivot).norm() - radius,
+                        CouplerSide::Line { point, direction, .. } => direction.normalize().perp(&(joint - point)),
+                    };
+                    assert!(miss.abs() < 1e-9, "{curve:?}");
                 }
                 let step = last.map_or(0.0, |last| (point - last).norm());
                 (longest, perimeter) = (longest.max(step), perimeter + step);

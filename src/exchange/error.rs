@@ -4,7 +4,7 @@ use std::fmt;
 
 use thiserror::Error;
 
-use crate::linkage::{CouplerError, TriadError, TrussError};
+use crate::linkage::{CouplerError, LinkageError, TriadError, TrussError};
 use crate::manipulator::DescriptionError;
 
 /// The two forms of a file.
@@ -67,6 +67,14 @@ pub enum FileError {
         file: String,
         /// What is wrong.
         error: DescriptionError,
+    },
+    /// The fields make no linkage that can be taken apart.
+    #[error("{file}: {error}")]
+    Linkage {
+        /// The file.
+        file: String,
+        /// What is wrong.
+        error: LinkageError,
     },
     /// The fields make no coupler curve.
     #[error("{file}: {error}")]

@@ -9,6 +9,7 @@ mod certificate;
 mod closure_row;
 mod constraint;
 mod coupler;
+mod decompose;
 mod det_a;
 mod dyad;
 mod exact_box;
@@ -40,6 +41,9 @@ pub use constraint::{RotationNumbers, constraint_system, sylvester_plan};
 pub use coupler::{
     Biquadratic, Circuit, CouplerCurve, CouplerError, CouplerSide, DoublePoint, DoublePointKind, GrashofClass,
     InputRange, Intersection, Intersections, Partner, SideNumbers, coupler_equation,
+};
+pub use decompose::{
+    Linkage, LinkageAssemblies, LinkageAssembly, LinkageError, LinkageGroup, LinkageJoint, LinkageNode,
 };
 pub use dyad::{Guide, TwoLinkAssemblies, TwoLinkAssembly, TwoLinkError, TwoLinkGroup, TwoLinkSpecial};
 pub use group::{Dyad, Offset, Pose, Triad, TriadError, triad_degree};

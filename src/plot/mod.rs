@@ -7,6 +7,7 @@
 //! ground, filled in colour is actuated, ringed is outside its limits.
 
 mod couplers;
+mod linkages;
 mod modes;
 mod plane;
 mod scene;
@@ -16,6 +17,7 @@ mod triads;
 mod trusses;
 
 pub use couplers::draw_coupler;
+pub use linkages::draw_linkage;
 pub use modes::draw_modes;
 pub use plane::{draw_path, draw_singularities};
 pub use triads::draw_assemblies;

@@ -64,7 +64,7 @@ fn marks(truss: &Truss, assembly: &TrussAssembly) -> Vec<Mark> {
 }
 
 /// Points in the order in which a ray from their middle sweeps over them.
-fn around_their_middle(mut points: Vec<Vector2<f64>>) -> Vec<Vector2<f64>> {
+pub(super) fn around_their_middle(mut points: Vec<Vector2<f64>>) -> Vec<Vector2<f64>> {
     let middle = points.iter().sum::<Vector2<f64>>() / points.len().max(1) as f64;
     let angle = |p: &Vector2<f64>| (p.y - middle.y).atan2(p.x - middle.x);
     points.sort_by(|a, b| angle(a).total_cmp(&angle(b)));

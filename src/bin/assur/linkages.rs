@@ -2,8 +2,10 @@
 
 use std::path::Path;
 
-use assur::exchange::{CouplerFile, CouplerReport, GroupReport, parse_group, read_problem};
-use assur::linkage::{CouplerCurve, InputRange, Intersections, Truss, TrussAssemblies};
+use assur::exchange::{
+    CouplerFile, CouplerReport, GroupReport, LinkageReport, is_linkage, parse_group, parse_linkage, read_problem,
+};
+use assur::linkage::{CouplerCurve, InputRange, Intersections, Linkage, LinkageAssemblies, Truss, TrussAssemblies};
 use assur::nalgebra::Vector2;
 use assur::num_complex::Complex64;
 
@@ -11,9 +13,16 @@ use crate::args::Shown;
 use crate::output::{self, Failure, Files};
 use crate::tables::{ALARM, POSE_DIGITS, SIDE_DIGITS, STRONG, complex, digits, heading, line, table};
 
-pub(crate) fn group(file: &Path, with_complex: bool, shown: &Shown) -> Result<(), Failure> {
+pub(crate) fn group(file: &Path, inputs: &[f64], with_complex: bool, shown: &Shown) -> Result<(), Failure> {
     let text = read_problem(file)?;
-    let truss = parse_group(&text, &file.display().to_string())?;
+    let name = file.display().to_string();
+    if is_linkage(&text, &name) {
+        return linkage(&parse_linkage(&text, &name)?, &name, inputs, shown);
+    }
+    if !inputs.is_empty() {
+        return Err(Failure::About(name, "a group has no driven joints, so no --inputs".to_owned()));
+    }
+    let truss = parse_group(&text, &name)?;
     let answer = truss.assemble();
     let draw = || assur::plot::draw_truss(&truss, &answer);
     Files::default().with_pictures(shown.svg.as_deref(), shown.png.as_deref(), draw)?.write()?;
@@ -22,6 +31,52 @@ pub(crate) fn group(file: &Path, with_complex: bool, shown: &Shown) -> Result<()
     } else {
         group_table(&truss, &answer, with_complex)
     })
+}
+
+fn linkage(linkage: &Linkage, file: &str, inputs: &[f64], shown: &Shown) -> Result<(), Failure> {
+    let answer = linkage.assemble(inputs).map_err(|error| Failure::About(file.to_owned(), error.to_string()))?;
+    let draw = || assur::plot::draw_linkage(linkage, &answer);
+    Files::default().with_pictures(shown.svg.as_deref(), shown.png.as_deref(), draw)?.write()?;
+    output::print(&if shown.json { LinkageReport::new(inputs, &answer).to_json() } else { linkage_table(&answer) })
+}
+
+fn linkage_table(answer: &LinkageAssemblies) -> String {
+    let mut text = String::new();
+    heading(&mut text, "Linkage");
+    for (number, group) in (1..).zip(&answer.groups) {
+        let links = group.links.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+        line(&mut text, format_args!("group {number}  {}, links {links}", group.name));
+    }
+    // The tree, indented: each assembly of a group under the one it stands on.
+    fn branch(text: &mut String, answer: &LinkageAssemblies, parent: Option<usize>, depth: usize) {
+        for (place, node) in answer.nodes.iter().enumerate().filter(|(_, node)| node.parent == parent) {
+            let note = match node.status {
+                assur::Status::Complete => "",
+                assur::Status::SelfMotion => ", and the group moves",
+                assur::Status::Undecided => ", and its list may be short",
+            };
+            let indent = "  ".repeat(depth);
+            let end = if node.group + 1 == answer.groups.len() { "" } else { ":" };
+            line(text, format_args!("{indent}group {}, assembly {}{note}{end}", node.group + 1, node.number));
+            branch(text, answer, Some(place), depth + 1);
+        }
+    }
+    branch(&mut text, answer, None, 0);
+    if let Some(first) = answer.assemblies.first() {
+        let mut header = vec!["assembly".to_owned()];
+        header.extend((0..first.poses.len()).map(|link| format!("link {link}")));
+        let mut table = table(&header);
+        for assembly in &answer.assemblies {
+            let choice = assembly.choice.iter().map(ToString::to_string).collect::<Vec<_>>().join("-");
+            let turns = assembly.poses.iter().map(|pose| digits(pose[2], SIDE_DIGITS));
+            table.add_row(std::iter::once(choice).chain(turns));
+        }
+        line(&mut text, format_args!("rotations from the reference assembly, in radians\n{table}"));
+    }
+    let worst = answer.assemblies.iter().map(|assembly| assembly.residual).fold(0.0, f64::max);
+    let count = answer.assemblies.len();
+    line(&mut text, format_args!("{STRONG}{count} assemblies, worst residual {worst:.1e}{STRONG:#}"));
+    text
 }
 
 fn group_table(truss: &Truss, answer: &TrussAssemblies, with_complex: bool) -> String {

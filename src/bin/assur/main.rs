@@ -47,7 +47,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             kinematics::path(&model, &through, &from, output.as_deref(), &shown)
         }
         Command::Coupler { file, complex, shown } => linkages::coupler(&file, complex, &shown),
-        Command::Group { file, complex, shown } => linkages::group(&file, complex, &shown),
+        Command::Group { file, inputs, complex, shown } => linkages::group(&file, &inputs, complex, &shown),
         Command::Triad { file, asked } => triad(&file, &asked),
         Command::Verify { report, model, tolerance, json } => verify(&report, &model, tolerance, json),
         Command::Derive { name: Some(name), .. } => output::print(&derive::document(&name)?),

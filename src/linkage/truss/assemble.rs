@@ -153,6 +153,12 @@ impl Truss {
         (origins, gap)
     }
 
+    /// Origin and rotation of every link's frame in an assembly, in the ground's frame.
+    pub(in crate::linkage) fn link_frames(&self, assembly: &TrussAssembly) -> Vec<(Complex64, Complex64)> {
+        let (origins, _) = self.placed(&assembly.theta);
+        origins.into_iter().zip(assembly.theta.iter().copied()).collect()
+    }
+
     /// Where the joints of each link are in a real assembly, in the ground's frame, as (joint, place).
     ///
     /// ```
