@@ -27,8 +27,8 @@ Symbols.  a, b, r, s    pivots and cranks          p, q     guided points, in th
 
 Source.   Roberts 1875 for tricircularity and the third focus; the form N N* + D^2 is worked out
           here.
-          Identities are checked at 40 seeded random integers of six digits; a polynomial of degree 16
-          that is not zero vanishes at one of them with a chance below 1e-5, at all below 1e-200.";
+          Identities are checked at 40 seeded random points of six digits; a polynomial of degree
+          16 that is not zero vanishes at one with a chance below 1e-5, at all below 1e-200.";
 
 /// A four-bar in integers.
 struct FourBar {
