@@ -36,6 +36,9 @@
 //! | assembly mode | one way to put a group together: a pose with its joint values |
 //! | working mode | which of its ways each leg takes to a pose: `+-+` |
 //! | eliminant | the polynomial in one unknown that elimination leaves |
+//! | truss | an Assur group of revolute joints together with its ground |
+//! | coupler curve | what a point of a link draws that is guided in two others |
+//! | circuit | a piece of a coupler curve that the linkage traces without being taken apart |
 //! | twin poses | two assembly modes with the same orientation |
 //! | self-motion | a whole curve of poses for the same inputs |
 //!
@@ -62,8 +65,14 @@
 //!   manipulators, J. Mech. Transm. Autom. Des. 107, 226-229.
 //! - Moore 1977: R. E. Moore, A test for existence of solutions to nonlinear systems, SIAM J. Numer. Anal. 14, 611-615.
 //! - Moore, Kearfott, Cloud 2009: Introduction to Interval Analysis, SIAM.
+//! - Nielsen and Roth 1999: J. Nielsen, B. Roth, Solving the input/output problem for planar mechanisms, J. Mech. Des. 121, 206-211.
 //! - Parlett and Reinsch 1969: B. N. Parlett, C. Reinsch, Balancing a matrix for calculation of eigenvalues and eigenvectors,
 //!   Numer. Math. 13, 293-304.
+//! - Roberts 1875: S. Roberts, On three-bar motion in plane space, Proc. London Math. Soc. 7, 14-23.
+//! - Rojas and Thomas 2012: N. Rojas, F. Thomas, On closed-form solutions to the position analysis of Baranov trusses, Mech. Mach. Theory
+//!   50, 179-196.
+//! - Wampler 2001: C. W. Wampler, Solving the kinematics of planar mechanisms by Dixon determinant and a complex-plane formulation, J.
+//!   Mech. Des. 123, 382-387.
 //! - Yun 1976: D. Y. Y. Yun, On square-free decomposition algorithms, SYMSAC '76, 26-35.
 
 #![forbid(unsafe_code)]
@@ -86,11 +95,11 @@ pub mod solve;
 
 pub use certify::Verdict;
 pub use linkage::{
-    Assemblies, AssemblyMode, Certificate, Claim, ComplexMode, Dyad, DyadKind, GroupName, GroupNameError, Guide,
-    Judgement, Limit, ModesRoute, NearMiss, Offset, PinnedDyad, PinnedDyadError, Pose, ProofRoute, ProofSubject,
-    ProvedMode, ProvedModes, RealMode, RealModes, Rejection, RejectionReason, SelfMotion, Special, Status,
-    ThetaPolynomial, Triad, TriadError, TwoLinkAssemblies, TwoLinkAssembly, TwoLinkError, TwoLinkGroup, TwoLinkSpecial,
-    triad_degree,
+    Assemblies, AssemblyMode, Certificate, Claim, ComplexMode, CouplerCurve, CouplerError, CouplerSide, Dyad, DyadKind,
+    GroupName, GroupNameError, Guide, Judgement, Limit, ModesRoute, NearMiss, Offset, PinnedDyad, PinnedDyadError,
+    Pose, ProofRoute, ProofSubject, ProvedMode, ProvedModes, RealMode, RealModes, Rejection, RejectionReason,
+    SelfMotion, Special, Status, ThetaPolynomial, Triad, TriadError, Truss, TrussAssemblies, TrussAssembly, TrussError,
+    TrussJoint, TwoLinkAssemblies, TwoLinkAssembly, TwoLinkError, TwoLinkGroup, TwoLinkSpecial, triad_degree,
 };
 pub use manipulator::{
     AssemblyModes, DescriptionError, FamilyError, FollowedPath, InverseSpecial, JointKind, JointsError, JointsReason,

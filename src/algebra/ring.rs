@@ -8,6 +8,8 @@
 use std::fmt::Debug;
 use std::ops::{Add, Mul, Neg, Sub};
 
+use num_complex::Complex64;
+
 use super::rational::{Integer, Rational};
 
 /// Numbers that can be added, subtracted and multiplied.
@@ -62,6 +64,12 @@ pub trait Domain: Ring {
 impl Ring for f64 {
     fn from_int(n: i64) -> Self {
         n as f64
+    }
+}
+
+impl Ring for Complex64 {
+    fn from_int(n: i64) -> Self {
+        Complex64::new(n as f64, 0.0)
     }
 }
 

@@ -4,7 +4,7 @@ use std::fmt;
 
 use thiserror::Error;
 
-use crate::linkage::TriadError;
+use crate::linkage::{CouplerError, LinkageError, TriadError, TrussError};
 use crate::manipulator::DescriptionError;
 
 /// The two forms of a file.
@@ -67,6 +67,30 @@ pub enum FileError {
         file: String,
         /// What is wrong.
         error: DescriptionError,
+    },
+    /// The fields make no linkage that can be taken apart.
+    #[error("{file}: {error}")]
+    Linkage {
+        /// The file.
+        file: String,
+        /// What is wrong.
+        error: LinkageError,
+    },
+    /// The fields make no coupler curve.
+    #[error("{file}: {error}")]
+    Coupler {
+        /// The file.
+        file: String,
+        /// What is wrong.
+        error: CouplerError,
+    },
+    /// The fields make no Assur group.
+    #[error("{file}: {error}")]
+    Truss {
+        /// The file.
+        file: String,
+        /// What is wrong.
+        error: TrussError,
     },
     /// The fields make no triad.
     #[error("{file}: {error}")]

@@ -23,7 +23,10 @@
 mod batch;
 mod check;
 mod claims;
+mod coupler_file;
 mod error;
+mod group_file;
+mod linkage_file;
 mod locus_report;
 mod model;
 mod motion_report;
@@ -40,9 +43,12 @@ pub use batch::{
 };
 pub use check::{CheckReport, LegReport, RemarkReport};
 pub use claims::{ClaimReport, ClaimedPoses, MissingReport, Subject, VerifyReport};
+pub use coupler_file::{CouplerFile, CouplerReport};
 pub use error::{FieldProblem, FileError, Format};
+pub use group_file::{GroupAssemblyReport, GroupReport, parse_group, write_group};
+pub use linkage_file::{LinkageReport, is_linkage, parse_linkage};
 pub use locus_report::{SingularitiesReport, TracedModes, map_csv};
-pub use model::{AngleUnit, ModelFile};
+pub use model::{AngleUnit, ModelFile, read_problem};
 pub use motion_report::{InverseReport, Motion, ROW_SCALING, SINGULAR_VALUE_SCALING, VelocityReport};
 pub use path_file::{PathFileError, PathReport, parse_path, read_path};
 pub use report::{CertificateReport, ForwardReport, ModeReport, SubjectReport};

@@ -133,6 +133,14 @@ impl ModelFile {
 }
 
 /// The text of a file; `-` is standard input.
+/// The text of a problem file; `-` is standard input.
+///
+/// # Errors
+/// One line that names the file and says why it cannot be read.
+pub fn read_problem(path: &Path) -> Result<String, FileError> {
+    read_text(path)
+}
+
 pub(super) fn read_text(path: &Path) -> Result<String, FileError> {
     let text =
         if path == Path::new("-") { std::io::read_to_string(std::io::stdin()) } else { std::fs::read_to_string(path) };

@@ -6,8 +6,14 @@ use super::error::{FieldProblem, FileError, nearest};
 use super::tree::Tree;
 
 /// What files call themselves, with the command that takes each.
-const KINDS: [(&str, &str); 3] =
-    [("assur/manipulator/1", "forward"), ("assur/triad/1", "triad"), ("assur/forward/1", "verify")];
+const KINDS: [(&str, &str); 6] = [
+    ("assur/manipulator/1", "forward"),
+    ("assur/triad/1", "triad"),
+    ("assur/forward/1", "verify"),
+    ("assur/group/1", "group"),
+    ("assur/linkage/1", "group"),
+    ("assur/coupler/1", "coupler"),
+];
 
 /// A value and where it stands.
 #[derive(Clone)]

@@ -173,7 +173,7 @@ struct ComplexReport {
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
-struct AccountReport {
+pub(super) struct AccountReport {
     degree: usize,
     real: usize,
     complex: usize,
@@ -181,6 +181,13 @@ struct AccountReport {
     rejected: usize,
     self_motion: usize,
     undecided: usize,
+}
+
+impl From<Account> for AccountReport {
+    fn from(account: Account) -> Self {
+        let Account { degree, real, complex, at_infinity, rejected, self_motion, undecided } = account;
+        Self { degree, real, complex, at_infinity, rejected, self_motion, undecided }
+    }
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -216,7 +223,6 @@ impl ForwardReport {
     }
 
     fn of(triad: Option<&Triad>, answer: &Assemblies, modes: Vec<ModeReport>) -> Self {
-        let Account { degree, real, complex, at_infinity, rejected, self_motion, undecided } = answer.account;
         Self {
             schema: "assur/forward/1",
             status: match answer.status {
@@ -240,7 +246,7 @@ impl ForwardReport {
                 })
                 .collect(),
             complex_out_of_range: answer.complex_out_of_range,
-            account: AccountReport { degree, real, complex, at_infinity, rejected, self_motion, undecided },
+            account: AccountReport::from(answer.account),
             rejections: answer
                 .rejections
                 .iter()

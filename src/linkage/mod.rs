@@ -1,13 +1,15 @@
 //! Planar Assur groups: what is left of a mechanism when its drivers are held.
 //!
 //! A [`Triad`] is a platform on three [`Dyad`]s; [`Triad::assemble`] finds every way to put it together. A [`TwoLinkGroup`] is one of
-//! the five groups of class II.
+//! the five groups of class II. A [`Truss`] is a group of any size with revolute joints, together with its ground.
 
 mod assemble;
 mod assemblies;
 mod certificate;
 mod closure_row;
 mod constraint;
+mod coupler;
+mod decompose;
 mod det_a;
 mod dyad;
 mod exact_box;
@@ -19,12 +21,14 @@ mod loop_box;
 mod name;
 mod numbers;
 mod pinned;
+mod pivoting;
 mod place;
 mod prove;
 mod real_modes;
 mod slider_quadrics;
 mod special;
 mod triad;
+mod truss;
 mod vanishing;
 mod verify;
 
@@ -34,6 +38,13 @@ pub use assemblies::{
 };
 pub use certificate::{Certificate, ProofSubject};
 pub use constraint::{RotationNumbers, constraint_system, sylvester_plan};
+pub use coupler::{
+    Biquadratic, Circuit, CouplerCurve, CouplerError, CouplerSide, DoublePoint, DoublePointKind, GrashofClass,
+    InputRange, Intersection, Intersections, Partner, SideNumbers, coupler_equation,
+};
+pub use decompose::{
+    Linkage, LinkageAssemblies, LinkageAssembly, LinkageError, LinkageGroup, LinkageJoint, LinkageNode,
+};
 pub use dyad::{Guide, TwoLinkAssemblies, TwoLinkAssembly, TwoLinkError, TwoLinkGroup, TwoLinkSpecial};
 pub use group::{Dyad, Offset, Pose, Triad, TriadError, triad_degree};
 pub use judge::{Claim, Judgement};
@@ -44,3 +55,6 @@ pub use real_modes::{MOST_MODES, ModesRoute, RealMode, RealModes};
 pub use slider_quadrics::{SliderPose, SliderQuadricsError, SliderSolutions, rp_rp_rp_quartic};
 pub use special::NearMiss;
 pub use triad::{LegNumbers, Row, Rows, consistency, leg_row, triad_rows};
+pub use truss::{
+    BaranovTruss, GraphError, Truss, TrussAssemblies, TrussAssembly, TrussError, TrussJoint, baranov_trusses,
+};

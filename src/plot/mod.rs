@@ -6,13 +6,19 @@
 //! Symbols: circles are revolute joints, blocks on a guide are sliders, telescopes are sliders between two links, hatching is the
 //! ground, filled in colour is actuated, ringed is outside its limits.
 
+mod couplers;
+mod linkages;
 mod modes;
 mod plane;
 mod scene;
 mod sheet;
 mod symbols;
 mod triads;
+mod trusses;
 
+pub use couplers::draw_coupler;
+pub use linkages::draw_linkage;
 pub use modes::draw_modes;
 pub use plane::{draw_path, draw_singularities};
 pub use triads::draw_assemblies;
+pub use trusses::draw_truss;

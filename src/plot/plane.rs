@@ -11,37 +11,38 @@ use crate::manipulator::{FollowedPath, Manipulator, PathEventKind, PlaneMap, Pla
 /// Side of the picture of the plane, room around it and for the legend beside it, in pixels.
 const SIDE: f64 = 560.0;
 const LEFT: f64 = 70.0;
-const TOP: f64 = 72.0;
+pub(super) const TOP: f64 = 72.0;
 const BESIDE: f64 = 215.0;
 const BOTTOM: f64 = 46.0;
 /// Colours of curves and modes: Okabe and Ito's, told apart in all kinds of colour vision, with brown for their yellow, which is lost on white.
-const COLOURS: [&str; 8] = ["#d55e00", "#0072b2", "#009e73", "#e69f00", "#cc79a7", "#56b4e9", "#7a4a21", "#000000"];
+pub(super) const COLOURS: [&str; 8] =
+    ["#d55e00", "#0072b2", "#009e73", "#e69f00", "#cc79a7", "#56b4e9", "#7a4a21", "#000000"];
 /// Curves of type 1.
 const EDGE: &str = "#8a949e";
 
 /// From positions to pixels.
-struct Chart {
+pub(super) struct Chart {
     window: PlaneWindow,
     scale: f64,
     size: Vector2<f64>,
 }
 
 impl Chart {
-    fn new(window: &PlaneWindow) -> Self {
+    pub(super) fn new(window: &PlaneWindow) -> Self {
         let extent = (window.high - window.low).map(|side| side.max(f64::MIN_POSITIVE));
         let scale = SIDE / extent.max();
         Self { window: *window, scale, size: extent * scale }
     }
 
-    fn x(&self, p: Vector2<f64>) -> f64 {
+    pub(super) fn x(&self, p: Vector2<f64>) -> f64 {
         LEFT + (p.x - self.window.low.x) * self.scale
     }
 
-    fn y(&self, p: Vector2<f64>) -> f64 {
+    pub(super) fn y(&self, p: Vector2<f64>) -> f64 {
         TOP + (self.window.high.y - p.y) * self.scale
     }
 
-    fn document(&self, title: &str, subtitle: &str, inside: Group, legend: Group) -> String {
+    pub(super) fn document(&self, title: &str, subtitle: &str, inside: Group, legend: Group) -> String {
         let (width, height) = (LEFT + self.size.x + BESIDE, TOP + self.size.y + BOTTOM);
         let frame =
             || Rectangle::new().set("x", LEFT).set("y", TOP).set("width", self.size.x).set("height", self.size.y);
@@ -81,7 +82,19 @@ impl Chart {
         document.add(legend).to_string()
     }
 
-    fn beside(&self) -> f64 {
+    pub(super) fn length(&self, length: f64) -> f64 {
+        length * self.scale
+    }
+
+    pub(super) fn middle(&self) -> Vector2<f64> {
+        (self.window.low + self.window.high) / 2.0
+    }
+
+    pub(super) fn diagonal(&self) -> f64 {
+        (self.window.high - self.window.low).norm()
+    }
+
+    pub(super) fn beside(&self) -> f64 {
         LEFT + self.size.x + 16.0
     }
 }
@@ -94,7 +107,7 @@ fn ticks(low: f64, high: f64) -> Vec<f64> {
     (first..first + 12).map(|k| k as f64 * step).take_while(|tick| *tick <= high).collect()
 }
 
-fn label(content: &str, x: f64, y: f64, size: f64) -> Text {
+pub(super) fn label(content: &str, x: f64, y: f64, size: f64) -> Text {
     Text::new(content).set("x", x).set("y", y).set("font-size", size).set("fill", INK)
 }
 

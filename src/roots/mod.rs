@@ -2,11 +2,13 @@
 //!
 //! Rough complex roots come from the eigenvalues of a balanced companion matrix ([`companion_roots`]); for polynomials with exact
 //! coefficients they are polished to any number of bits ([`polish_roots`]) and the real ones are counted ([`isolate_real_roots`]).
+//! Where a polynomial would lose its digits, a matrix pencil keeps them ([`pencil_eigenpairs`]).
 
 mod circle;
 mod companion;
 mod isolate;
 mod locate;
+mod pencil;
 mod polish;
 mod wide;
 
@@ -14,5 +16,6 @@ pub use circle::{CountedRoots, Harmonics};
 pub use companion::{PolynomialRoots, RootsError, companion_roots, companion_roots_real};
 pub use isolate::{Isolation, isolate_real_roots};
 pub use locate::{CircleRoot, FIRST_BITS, MAX_BITS, NotLocated, locate_on_circle};
+pub use pencil::{Eigenpair, PencilEigenpairs, PencilError, pencil_eigenpairs};
 pub use polish::{FineRoot, NotSettled, polish_roots};
 pub(crate) use polish::{quotient, scaled};

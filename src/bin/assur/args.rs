@@ -169,6 +169,34 @@ pub(crate) enum Command {
         #[command(flatten)]
         shown: Shown,
     },
+    /// Describes a coupler curve and finds where it meets a line, a circle or another.
+    #[command(after_help = "Example:  assur coupler examples/coupler.json --svg curve.svg")]
+    Coupler {
+        /// Coupler problem file, JSON or TOML; - is standard input.
+        file: PathBuf,
+        /// Lists the non-real intersections too.
+        #[arg(long)]
+        complex: bool,
+        #[command(flatten)]
+        shown: Shown,
+    },
+    /// Finds every way to put an Assur group of revolute joints together, or a linkage of such groups.
+    #[command(
+        after_help = "A group has up to eleven links. A linkage is taken apart into its groups with the drivers held.\n\
+        Examples:  assur group examples/seven-link.json --svg assemblies.svg\n           assur group examples/chain.json --inputs=0.1"
+    )]
+    Group {
+        /// Group or linkage file, JSON or TOML; - is standard input.
+        file: PathBuf,
+        /// For a linkage: the angle of each driven joint from the reference assembly, in radians, in file order.
+        #[arg(long, value_name = "Q1,Q2,...", value_delimiter = ',', allow_hyphen_values = true)]
+        inputs: Vec<f64>,
+        /// Lists the non-real solutions too.
+        #[arg(long)]
+        complex: bool,
+        #[command(flatten)]
+        shown: Shown,
+    },
     /// Finds every way to put a triad together.
     #[command(after_help = "Example:  assur triad problem.json --complex")]
     Triad {

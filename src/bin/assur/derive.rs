@@ -15,8 +15,14 @@ struct Derivation {
 mod acceleration_term;
 #[path = "../../../derivations/charts.rs"]
 mod charts;
+#[path = "../../../derivations/coupler_intersections.rs"]
+mod coupler_intersections;
+#[path = "../../../derivations/coupler_sextic.rs"]
+mod coupler_sextic;
 #[path = "../../../derivations/degree_table.rs"]
 mod degree_table;
+#[path = "../../../derivations/dixon_pencils.rs"]
+mod dixon_pencils;
 #[path = "../../../derivations/filter_bound.rs"]
 mod filter_bound;
 #[path = "../../../derivations/leg_reductions.rs"]
@@ -33,10 +39,13 @@ mod triad_sextic;
 mod velocity_row;
 
 /// Every derivation is a program of its own as well; here only its text is used.
-const _: [fn(); 10] = [
+const _: [fn(); 13] = [
     acceleration_term::main,
     charts::main,
+    coupler_intersections::main,
+    coupler_sextic::main,
     degree_table::main,
+    dixon_pencils::main,
     filter_bound::main,
     leg_reductions::main,
     prr_rows::main,
@@ -97,6 +106,21 @@ const DERIVATIONS: &[Derivation] = &[
         name: "filter_bound",
         claim: "when floating point may say how many assembly modes there are",
         document: filter_bound::document,
+    },
+    Derivation {
+        name: "coupler_sextic",
+        claim: "the curve of a coupler point is a tricircular sextic, and its equation",
+        document: coupler_sextic::document,
+    },
+    Derivation {
+        name: "coupler_intersections",
+        claim: "two coupler curves meet in 18 points, in fewer where they share foci",
+        document: coupler_intersections::document,
+    },
+    Derivation {
+        name: "dixon_pencils",
+        claim: "larger groups as generalised eigenproblems; the triad's sextic is the 6x6 case",
+        document: dixon_pencils::document,
     },
 ];
 

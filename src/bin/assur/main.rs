@@ -4,6 +4,7 @@ mod args;
 mod batch;
 mod derive;
 mod kinematics;
+mod linkages;
 mod output;
 mod png;
 mod tables;
@@ -49,6 +50,8 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::Path { model, through, from, output, shown } => {
             kinematics::path(&model, &through, &from, output.as_deref(), &shown)
         }
+        Command::Coupler { file, complex, shown } => linkages::coupler(&file, complex, &shown),
+        Command::Group { file, inputs, complex, shown } => linkages::group(&file, &inputs, complex, &shown),
         Command::Triad { file, asked } => triad(&file, &asked),
         Command::Verify { report, model, tolerance, json } => verify(&report, &model, tolerance, json),
         Command::Derive { name: Some(name), .. } => output::print(&derive::document(&name)?),

@@ -361,7 +361,7 @@ pub(crate) fn digits(value: f64, significant: i32) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-fn complex(value: Complex64) -> String {
+pub(crate) fn complex(value: Complex64) -> String {
     let sign = if value.im < 0.0 { '-' } else { '+' };
     format!("{} {sign} {}i", digits(value.re, POSE_DIGITS), digits(value.im.abs(), POSE_DIGITS))
 }
