@@ -57,6 +57,8 @@
 //!   trois degrés de liberté, Mech. Mach. Theory 27, 107-119.
 //! - Knuth 1969: D. E. Knuth, The Art of Computer Programming, vol. 2, Addison-Wesley (exact sums of two floats).
 //! - Krawczyk 1969: R. Krawczyk, Newton-Algorithmen zur Bestimmung von Nullstellen mit Fehlerschranken, Computing 4, 187-201.
+//! - Liu, Wang, Wang, Li 2004: X. Liu, J. Wang, Q. Wang, T. Li, Workspace and rotational capability analysis of a spatial 3-DoF parallel
+//!   manipulator.
 //! - Mitsi, Bouzakis, Mansour, Popescu: A method for forward displacement analysis of 3-RRP and 3-PRP planar parallel manipulators.
 //! - Mohamed and Duffy 1985: M. G. Mohamed, J. Duffy, A direct determination of the instantaneous kinematics of fully parallel robot
 //!   manipulators, J. Mech. Transm. Autom. Des. 107, 226-229.
@@ -83,6 +85,7 @@ pub mod manipulator;
 pub mod plot;
 pub mod roots;
 pub mod solve;
+pub mod spatial;
 
 pub use certify::Verdict;
 pub use linkage::{
@@ -102,6 +105,11 @@ pub use manipulator::{
 pub use solve::{
     Account, Eliminant, EliminateError, Outcome, Plan, RejectedRoot, RootRejection, Solution, Solutions, SolveError,
     System, eliminate, lift, solve,
+};
+
+pub use spatial::{
+    Hana, HanaAssemblies, HanaAssembly, HanaFamily, HanaMode, HanaPose, HanaSingularKind, HanaSingularity,
+    HanaUnreachable, HanaVelocity, HanaViolation, HanaWay, HanaWays, MixedReach, MixedSingularity, SpatialError,
 };
 
 /// The README's code runs as a test.
