@@ -16,14 +16,18 @@
 //! Source: Liu, Wang, Wang, Li 2004. What is printed there and does
 //! not hold is said where it matters.
 
+mod capability;
 mod forward;
 mod inverse;
 mod mixed;
 mod model;
 mod velocity;
+mod workspace;
 
+pub use capability::{Capability, CapabilityMap, CapabilityStop, CapabilitySupremum};
 pub use forward::{HanaAssemblies, HanaAssembly, HanaFamily};
 pub use inverse::{HanaMode, HanaUnreachable, HanaViolation, HanaWay, HanaWays};
 pub use mixed::{MixedReach, MixedSingularity};
 pub use model::{Hana, HanaPose};
 pub use velocity::{HanaSingularKind, HanaSingularity, HanaVelocity};
+pub use workspace::HanaWorkspaceError;
