@@ -48,6 +48,7 @@
 //!
 //! - Aberth 1973: O. Aberth, Iteration methods for finding all zeros of a polynomial simultaneously, Math. Comp. 27, 339-344.
 //! - Bareiss 1968: E. H. Bareiss, Sylvester's identity and multistep integer-preserving Gaussian elimination, Math. Comp. 22, 565-578.
+//! - Cherkhelanov, Bonev: E. Cherkhelanov, I. A. Bonev, A novel three-legged 6-DOF parallel robot with simple kinematics.
 //! - Collins and Akritas 1976: G. E. Collins, A. G. Akritas, Polynomial real root isolation using Descartes' rule of signs,
 //!   SYMSAC '76, 272-275.
 //! - Fujiwara 1916: M. Fujiwara, Über die obere Schranke des absoluten Betrages der Wurzeln einer algebraischen Gleichung, Tohoku Math.
@@ -108,8 +109,11 @@ pub use solve::{
 };
 
 pub use spatial::{
-    Hana, HanaAssemblies, HanaAssembly, HanaFamily, HanaMode, HanaPose, HanaSingularKind, HanaSingularity,
-    HanaUnreachable, HanaVelocity, HanaViolation, HanaWay, HanaWays, MixedReach, MixedSingularity, SpatialError,
+    ArcCircle, ArcRegion, Capability, CapabilityMap, CapabilityStop, CapabilitySupremum, CartesianRobot,
+    CartesianSingular, Hana, HanaAssemblies, HanaAssembly, HanaFamily, HanaMode, HanaPose, HanaSingularKind,
+    HanaSingularity, HanaUnreachable, HanaVelocity, HanaViolation, HanaWay, HanaWays, HanaWorkspaceError, MixedReach,
+    MixedSingularity, Orientations, PlaneConditions, SpatialError, Tripod, TripodAssemblies, TripodAssembly,
+    TripodError, TripodLeg, TripodPose, TripodReach, TripodSingularity, TripodStatus, TripodVelocity, WorkspaceArc,
 };
 
 /// The README's code runs as a test.
