@@ -16,6 +16,6 @@ pub use hana::{
     HanaWays, HanaWorkspaceError, MixedReach, MixedSingularity,
 };
 pub use tripod::{
-    CartesianRobot, CartesianSingular, Orientations, PlaneConditions, Tripod, TripodAssemblies, TripodAssembly,
-    TripodError, TripodLeg, TripodPose, TripodReach, TripodSingularity, TripodStatus, TripodVelocity,
+    CartesianRobot, CartesianSingular, Orientations, PlaneConditions, Tilt, TiltLimit, Tripod, TripodAssemblies,
+    TripodAssembly, TripodError, TripodLeg, TripodPose, TripodReach, TripodSingularity, TripodStatus, TripodVelocity,
 };

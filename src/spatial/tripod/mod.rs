@@ -19,10 +19,12 @@ mod cartesian;
 mod forward;
 mod model;
 mod orientation;
+mod tilt;
 mod velocity;
 
 pub use cartesian::{CartesianRobot, CartesianSingular};
 pub use forward::{TripodAssemblies, TripodAssembly, TripodStatus};
 pub use model::{Tripod, TripodError, TripodLeg, TripodPose, TripodReach};
 pub use orientation::{Orientations, PlaneConditions};
+pub use tilt::{Tilt, TiltLimit};
 pub use velocity::{TripodSingularity, TripodVelocity};

@@ -33,6 +33,8 @@ pub struct Tripod {
     pub strokes: Option<[[f64; 2]; 6]>,
     /// The tool's point, in the platform.
     pub tool: Vector3<f64>,
+    /// The tool's axis, in the platform, of length 1: what is tilted.
+    pub tool_axis: Vector3<f64>,
     /// Largest angle, in radians, between a leg's plane and where it is with all sliders of the leg level; unlimited where there is none.
     pub plane_angle_limit: Option<f64>,
 }
@@ -183,7 +185,14 @@ impl Tripod {
                 return Err(TripodError::OneRail { leg: number });
             }
         }
-        Ok(Self { name: String::new(), legs, strokes: None, tool: Vector3::zeros(), plane_angle_limit: None })
+        Ok(Self {
+            name: String::new(),
+            legs,
+            strokes: None,
+            tool: Vector3::zeros(),
+            tool_axis: Vector3::z(),
+            plane_angle_limit: None,
+        })
     }
 
     /// Whether limits are sound.
@@ -192,6 +201,14 @@ impl Tripod {
     /// A stroke reversed, an angle that is not positive, a tool that is not finite.
     pub fn validate_limits(&self) -> Result<(), TripodError> {
         self.tool.iter().try_for_each(|&x| moderate(|| "tool".to_owned(), x))?;
+        self.tool_axis.iter().try_for_each(|&x| moderate(|| "tool axis".to_owned(), x))?;
+        if (self.tool_axis.norm() - 1.0).abs() > NEARLY_ROTATION {
+            return Err(SpatialError::NotPositive {
+                what: "tool axis, its length less its distance from 1".to_owned(),
+                value: 0.0,
+            }
+            .into());
+        }
         for (slider, stroke) in (1..).zip(self.strokes.iter().flatten()) {
             range(&format!("strokes, slider {slider}"), *stroke)?;
         }
