@@ -4,7 +4,8 @@ mod random;
 
 use assur::nalgebra::{Matrix3, Rotation3, Vector3, Vector6};
 use assur::{
-    CartesianRobot, CartesianSingular, PlaneConditions, Tripod, TripodLeg, TripodPose, TripodSingularity, TripodStatus,
+    CartesianRobot, CartesianSingular, Hexapteron, PlaneConditions, Quadrupteron, Tripod, TripodLeg, TripodPose,
+    TripodSingularity, TripodStatus,
 };
 use random::Random;
 use serde_json::Value;
@@ -278,7 +279,7 @@ fn newton_from_many_starts_finds_nothing_else() {
             if conditions.residual(&rotation) > 1e-10 || determinant.abs() < 1e-4 {
                 continue;
             }
-            let known = answer.rotations.iter().any(|(r, _)| apart(&r, &rotation) < 1e-6);
+            let known = answer.rotations.iter().any(|(r, _)| apart(r, &rotation) < 1e-6);
             assert!(known, "{conditions:?} {rotation}");
         }
     }
@@ -339,4 +340,80 @@ fn bad_robots_and_poses_are_refused() {
     let error = along.expect("sound").inverse(&TripodPose::new(Vector3::zeros(), Vector3::zeros())).unwrap_err();
     assert!(error.to_string().starts_with("leg 1: its plane is parallel to the rails"), "{error}");
     assert!(TripodPose::with_matrix(Vector3::zeros(), Matrix3::identity() * 2.0).is_err());
+}
+
+#[test]
+fn fewer_degrees_of_freedom() {
+    let data = &golden()["tripod6"];
+    let (robot, general) = (CartesianRobot { d1: 600.0, d2: 720.0 }, Tripod::cartesian(600.0, 720.0).expect("sound"));
+    let case = &data["dof5"];
+    let found = robot.five_dof_orientations(&Vector3::repeat(1.0), &vector(&case["tool_dir"]));
+    let solutions = case["solutions"].as_array().expect("a list");
+    assert_eq!((found.len(), solutions.len()), (2, 2));
+    for ((torsion, rotation), solution) in found.iter().zip(solutions) {
+        assert!((torsion - solution["s"].as_f64().expect("a number")).abs() < 1e-9);
+        assert!((rotation.matrix() - matrix(&solution["R"])).norm() < 1e-9);
+        let rho = numbers(&solution["rho"]);
+        let pose = TripodPose { position: vector(&case["p"]), rotation: *rotation };
+        let inputs = general.inverse(&pose).expect("regular");
+        assert!(inputs.iter().zip(&rho).all(|(a, b)| (a - b).abs() < 1e-8 * b.abs().max(1.0)), "{inputs:?} {rho:?}");
+    }
+    let rho = numbers(&solutions[0]["rho"]);
+    let back = robot.forward_five(&[rho[0], rho[2], rho[3], rho[4], rho[5]]).expect("never singular");
+    assert!((back.rotation.matrix() - matrix(&solutions[0]["R"])).norm() < 1e-9);
+
+    let case = &data["dof4"];
+    let rho = numbers(&case["rho"]);
+    let pose = robot.forward_four(&[rho[0], rho[2], rho[4], rho[5]]).expect("never singular");
+    let turned = Rotation3::new(Vector3::y() * case["rotation_about_y"].as_f64().expect("an angle"));
+    assert!((pose.position - vector(&case["p"])).norm() < 1e-9 && apart(&pose.rotation, &turned) < 1e-12);
+}
+
+#[test]
+fn multipterons() {
+    let data = &golden()["multipteron"];
+    let case = &data["quadrupteron_model"];
+    let four = |key: &str| std::array::from_fn(|k| vector(&case[key][k]));
+    let robot = Quadrupteron { directions: four("e"), points: four("b"), axis: vector(&case["axis"]) };
+    let inputs: [f64; 4] = numbers(&case["rho"]).try_into().expect("four");
+    let phi = case["phi"].as_f64().expect("an angle");
+    assert!(robot.inverse(&vector(&case["p"]), phi).iter().zip(inputs).all(|(a, b)| (a - b).abs() < 1e-12));
+    let found = robot.forward(&inputs);
+    for solution in case["fk"].as_array().expect("a list") {
+        let (p, phi) = (vector(&solution["p"]), solution["phi"].as_f64().expect("an angle"));
+        assert!(found.iter().any(|(place, angle)| (place - p).norm() + (angle - phi).abs() < 1e-9), "{found:?}");
+    }
+    assert_eq!(found.len(), 2);
+
+    let case = &data["hexapteron_model"];
+    let robot = Hexapteron {
+        directions: [Vector3::x(), Vector3::y(), Vector3::z()],
+        points: std::array::from_fn(|k| vector(&case["b"][k])),
+    };
+    let inputs = robot.inverse(&pose(case));
+    assert!(inputs.iter().zip(numbers(&case["rho"])).all(|(a, b)| (a - b).abs() < 1e-9));
+    let (poses, account) = robot.forward(&inputs).expect("regular");
+    let expected = case["fk"].as_array().expect("a list");
+    assert_eq!((poses.len(), account.real, expected.len()), (8, 8, 8));
+    for solution in expected {
+        let wanted = pose(solution);
+        assert!(
+            poses.iter().any(|p| apart(&p.rotation, &wanted.rotation) + (p.position - wanted.position).norm() < 1e-9)
+        );
+    }
+}
+
+#[test]
+fn determinants_of_figure_8_vanish_where_said() {
+    // The curves of det J over elevation and axis angle, at home: none at the ends, some in between.
+    let home = TripodPose::new(Vector3::new(0.0, 0.0, 10.0), Vector3::zeros());
+    let determinant = |robot: Tripod| robot.velocity(&home).map_or(0.0, |v| v.position_volume * v.orientation_volume);
+    let inclined = |degrees: f64| determinant(Tripod::inclined(degrees.to_radians(), 600.0, 720.0).expect("sound"));
+    let upright = |degrees: f64| determinant(Tripod::upright(degrees.to_radians(), 600.0, 720.0).expect("sound"));
+    assert!(inclined(0.0).abs() < 1e-12 && inclined(90.0).abs() < 1e-12 && inclined(35.0).abs() > 0.1);
+    // With vertical rails the turning axes are tangential at home, whatever the elevation: torsion is free. Tilted, it is not.
+    assert!(upright(0.0).abs() < 1e-12 && upright(19.0).abs() < 1e-12);
+    let tilted = TripodPose::new(Vector3::zeros(), Vector3::new(0.2, 0.1, 0.0));
+    let robot = Tripod::upright(19_f64.to_radians(), 600.0, 720.0).expect("sound");
+    assert_eq!(robot.velocity(&tilted).expect("regular").singularity(), TripodSingularity::None);
 }

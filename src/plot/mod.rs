@@ -10,9 +10,11 @@ mod modes;
 mod plane;
 mod scene;
 mod sheet;
+mod spatial;
 mod symbols;
 mod triads;
 
 pub use modes::draw_modes;
 pub use plane::{draw_path, draw_singularities};
+pub use spatial::{draw_hana, draw_tilt_sections};
 pub use triads::draw_assemblies;

@@ -11,37 +11,40 @@ use crate::manipulator::{FollowedPath, Manipulator, PathEventKind, PlaneMap, Pla
 /// Side of the picture of the plane, room around it and for the legend beside it, in pixels.
 const SIDE: f64 = 560.0;
 const LEFT: f64 = 70.0;
-const TOP: f64 = 72.0;
+pub(super) const TOP: f64 = 72.0;
 const BESIDE: f64 = 215.0;
 const BOTTOM: f64 = 46.0;
 /// Colours of curves and modes: Okabe and Ito's, told apart in all kinds of colour vision, with brown for their yellow, which is lost on white.
-const COLOURS: [&str; 8] = ["#d55e00", "#0072b2", "#009e73", "#e69f00", "#cc79a7", "#56b4e9", "#7a4a21", "#000000"];
+pub(super) const COLOURS: [&str; 8] =
+    ["#d55e00", "#0072b2", "#009e73", "#e69f00", "#cc79a7", "#56b4e9", "#7a4a21", "#000000"];
 /// Curves of type 1.
 const EDGE: &str = "#8a949e";
 
 /// From positions to pixels.
-struct Chart {
+pub(super) struct Chart {
     window: PlaneWindow,
     scale: f64,
-    size: Vector2<f64>,
+    pub(super) size: Vector2<f64>,
+    /// Names of the axes.
+    pub(super) axes: [&'static str; 2],
 }
 
 impl Chart {
-    fn new(window: &PlaneWindow) -> Self {
+    pub(super) fn new(window: &PlaneWindow) -> Self {
         let extent = (window.high - window.low).map(|side| side.max(f64::MIN_POSITIVE));
         let scale = SIDE / extent.max();
-        Self { window: *window, scale, size: extent * scale }
+        Self { window: *window, scale, size: extent * scale, axes: ["x", "y"] }
     }
 
-    fn x(&self, p: Vector2<f64>) -> f64 {
+    pub(super) fn x(&self, p: Vector2<f64>) -> f64 {
         LEFT + (p.x - self.window.low.x) * self.scale
     }
 
-    fn y(&self, p: Vector2<f64>) -> f64 {
+    pub(super) fn y(&self, p: Vector2<f64>) -> f64 {
         TOP + (self.window.high.y - p.y) * self.scale
     }
 
-    fn document(&self, title: &str, subtitle: &str, inside: Group, legend: Group) -> String {
+    pub(super) fn document(&self, title: &str, subtitle: &str, inside: Group, legend: Group) -> String {
         let (width, height) = (LEFT + self.size.x + BESIDE, TOP + self.size.y + BOTTOM);
         let frame =
             || Rectangle::new().set("x", LEFT).set("y", TOP).set("width", self.size.x).set("height", self.size.y);
@@ -74,14 +77,15 @@ impl Chart {
                     document.add(mark).add(label(&number(tick), place.0, place.1, 11.0).set("text-anchor", anchor));
             }
         }
-        let names = [("x", LEFT + self.size.x / 2.0, height - 10.0), ("y", 14.0, TOP + self.size.y / 2.0)];
+        let [across, up] = self.axes;
+        let names = [(across, LEFT + self.size.x / 2.0, height - 10.0), (up, 14.0, TOP + self.size.y / 2.0)];
         for (name, x, y) in names {
             document = document.add(label(name, x, y, 13.0).set("font-style", "italic"));
         }
         document.add(legend).to_string()
     }
 
-    fn beside(&self) -> f64 {
+    pub(super) fn beside(&self) -> f64 {
         LEFT + self.size.x + 16.0
     }
 }
@@ -94,7 +98,7 @@ fn ticks(low: f64, high: f64) -> Vec<f64> {
     (first..first + 12).map(|k| k as f64 * step).take_while(|tick| *tick <= high).collect()
 }
 
-fn label(content: &str, x: f64, y: f64, size: f64) -> Text {
+pub(super) fn label(content: &str, x: f64, y: f64, size: f64) -> Text {
     Text::new(content).set("x", x).set("y", y).set("font-size", size).set("fill", INK)
 }
 
@@ -196,7 +200,7 @@ fn strokes<'a>(chart: &Chart, pieces: impl IntoIterator<Item = &'a [Vector2<f64>
 }
 
 /// From low to high: dark blue, green, yellow.
-fn colour(part: f64) -> String {
+pub(super) fn colour(part: f64) -> String {
     let stops =
         [[68.0, 1.0, 84.0], [59.0, 82.0, 139.0], [33.0, 145.0, 140.0], [94.0, 201.0, 98.0], [253.0, 231.0, 37.0]];
     let place = part.clamp(0.0, 1.0) * 4.0;

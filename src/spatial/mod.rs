@@ -16,6 +16,7 @@ pub use hana::{
     HanaWays, HanaWorkspaceError, MixedReach, MixedSingularity,
 };
 pub use tripod::{
-    CartesianRobot, CartesianSingular, Orientations, PlaneConditions, Tilt, TiltLimit, Tripod, TripodAssemblies,
-    TripodAssembly, TripodError, TripodLeg, TripodPose, TripodReach, TripodSingularity, TripodStatus, TripodVelocity,
+    CartesianRobot, CartesianSingular, Hexapteron, Orientations, PlaneConditions, Quadrupteron, Tilt, TiltLimit,
+    Tripod, TripodAssemblies, TripodAssembly, TripodError, TripodLeg, TripodPose, TripodReach, TripodSingularity,
+    TripodStatus, TripodVelocity, Tripteron,
 };

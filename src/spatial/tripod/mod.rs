@@ -17,6 +17,7 @@
 
 mod cartesian;
 mod forward;
+mod members;
 mod model;
 mod orientation;
 mod tilt;
@@ -24,6 +25,7 @@ mod velocity;
 
 pub use cartesian::{CartesianRobot, CartesianSingular};
 pub use forward::{TripodAssemblies, TripodAssembly, TripodStatus};
+pub use members::{Hexapteron, Quadrupteron, Tripteron};
 pub use model::{Tripod, TripodError, TripodLeg, TripodPose, TripodReach};
 pub use orientation::{Orientations, PlaneConditions};
 pub use tilt::{Tilt, TiltLimit};

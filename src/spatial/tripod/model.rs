@@ -246,7 +246,8 @@ impl Tripod {
 
     /// The second design of the paper's figure 8: vertical rails, base axes tangential, platform axes at `elevation` (radians) over the horizontal.
     ///
-    /// Our reading of the figure. Axes 110° apart have `cos 110° = -1/2 + (3/2) sin² elevation`; horizontal ones are singular wherever the platform is level.
+    /// Our reading of the figure. Axes 110° apart have `cos 110° = -1/2 + (3/2) sin² elevation`; horizontal ones are singular wherever the
+    /// platform is level. In this reading torsion is free in the home pose itself, whatever the elevation.
     ///
     /// # Errors
     /// As [`Tripod::cartesian`].

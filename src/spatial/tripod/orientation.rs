@@ -149,10 +149,8 @@ impl PlaneConditions {
             let m = rotation.into_inner();
             rotation = Rotation3::from_matrix_unchecked(m * (Matrix3::identity() * 3.0 - m.transpose() * m) * 0.5);
         }
-        (self.values(&rotation).amax() <= MET.sqrt()).then(|| {
-            // Slow convergence: a multiple rotation.
-            (rotation, 0.0)
-        })
+        // Slow convergence: a multiple rotation.
+        (self.values(&rotation).amax() <= MET.sqrt()).then_some((rotation, 0.0))
     }
 }
 

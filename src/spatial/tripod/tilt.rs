@@ -53,9 +53,11 @@ pub struct Tilt {
 /// Azimuths looked at first. The limits are of order 4 in the azimuth at most, so they turn no more often than eight times.
 const GRID: usize = 32;
 /// A local least of the grid this much above the best is not refined: between neighbours on the grid no limit of order 4 falls so far (heuristic).
-const PROMISING: f64 = 1.25;
+const PROMISING: f64 = 1.15;
 /// Evaluations in the refinement of one least.
 const REFINEMENTS: usize = 24;
+/// The worst azimuth is sought to this, in radians: the angle is stationary there and good to its square.
+const SETTLED: f64 = 1e-6;
 /// Halvings in the search for a root.
 const DEPTH: u32 = 40;
 /// Arcs of azimuths are not halved below this, in radians.
@@ -91,22 +93,23 @@ impl Tripod {
         let Some(frame) = TiltFrame::new(self, place)? else { return Ok(None) };
         let step = TAU / GRID as f64;
         let mut best = Tilt { angle: PI, azimuth: 0.0, limit: TiltLimit::HalfTurn };
-        let mut table = [[f64::INFINITY; GRID]; LIMITS];
-        for k in 0..GRID {
+        let mut table = [[f64::INFINITY; LIMITS]; GRID];
+        for (k, row) in table.iter_mut().enumerate() {
             let azimuth = step * k as f64;
             for (j, quadratic) in frame.limits(azimuth).iter().enumerate() {
                 // What ends far beyond the best so far need not be known.
                 if let Some(angle) = first_end(quadratic, (PROMISING * best.angle).min(PI)) {
-                    table[j][k] = angle;
+                    row[j] = angle;
                     if angle < best.angle {
                         best = Tilt { angle, azimuth, limit: frame.limit(j) };
                     }
                 }
             }
         }
-        for (j, row) in table.iter().enumerate() {
-            for k in 0..GRID {
-                let (before, here, after) = (row[(k + GRID - 1) % GRID], row[k], row[(k + 1) % GRID]);
+        let columns: [[f64; GRID]; LIMITS] = std::array::from_fn(|j| table.map(|row| row[j]));
+        for (j, around) in columns.iter().enumerate() {
+            for (k, &here) in around.iter().enumerate() {
+                let (before, after) = (around[(k + GRID - 1) % GRID], around[(k + 1) % GRID]);
                 if here.is_finite() && here <= before && here <= after && here <= PROMISING * best.angle {
                     let value = |azimuth: f64| first_end(&frame.limits(azimuth)[j], PI).unwrap_or(f64::INFINITY);
                     let (azimuth, angle) = least(value, step * k as f64, step, [before, here, after]);
@@ -447,7 +450,7 @@ fn least(f: impl Fn(f64) -> f64, at: f64, step: f64, [before, here, after]: [f64
         } else {
             x + 0.381_966 * (high - x)
         };
-        if (next - x).abs() < 1e-10 {
+        if (next - x).abs() < SETTLED {
             break;
         }
         let value = f(next);
