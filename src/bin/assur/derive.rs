@@ -13,12 +13,16 @@ struct Derivation {
 
 #[path = "../../../derivations/acceleration_term.rs"]
 mod acceleration_term;
+#[path = "../../../derivations/cartesian_robot.rs"]
+mod cartesian_robot;
 #[path = "../../../derivations/charts.rs"]
 mod charts;
 #[path = "../../../derivations/degree_table.rs"]
 mod degree_table;
 #[path = "../../../derivations/filter_bound.rs"]
 mod filter_bound;
+#[path = "../../../derivations/hana_forward.rs"]
+mod hana_forward;
 #[path = "../../../derivations/leg_reductions.rs"]
 mod leg_reductions;
 #[path = "../../../derivations/prr_rows.rs"]
@@ -29,20 +33,25 @@ mod rp_rp_rp_octic;
 mod singularity_degrees;
 #[path = "../../../derivations/triad_sextic.rs"]
 mod triad_sextic;
+#[path = "../../../derivations/tripod_orientation.rs"]
+mod tripod_orientation;
 #[path = "../../../derivations/velocity_row.rs"]
 mod velocity_row;
 
 /// Every derivation is a program of its own as well; here only its text is used.
-const _: [fn(); 10] = [
+const _: [fn(); 13] = [
     acceleration_term::main,
+    cartesian_robot::main,
     charts::main,
     degree_table::main,
     filter_bound::main,
+    hana_forward::main,
     leg_reductions::main,
     prr_rows::main,
     rp_rp_rp_octic::main,
     singularity_degrees::main,
     triad_sextic::main,
+    tripod_orientation::main,
     velocity_row::main,
 ];
 
@@ -97,6 +106,21 @@ const DERIVATIONS: &[Derivation] = &[
         name: "filter_bound",
         claim: "when floating point may say how many assembly modes there are",
         document: filter_bound::document,
+    },
+    Derivation {
+        name: "hana_forward",
+        claim: "HANA's forward kinematics is a product: two families of four, by square roots",
+        document: hana_forward::document,
+    },
+    Derivation {
+        name: "tripod_orientation",
+        claim: "the orientation of a three-legged robot has degree 8",
+        document: tripod_orientation::document,
+    },
+    Derivation {
+        name: "cartesian_robot",
+        claim: "the Cartesian robot's equations as printed and as corrected, and its two singularities",
+        document: cartesian_robot::document,
     },
 ];
 

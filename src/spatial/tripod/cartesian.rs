@@ -6,7 +6,7 @@
 //! | `T` | `t1 t2 t3` |
 //!
 //! With every plane within a quarter turn and `T > -1` there is one pose. The paper's eqs. (14) and (15) have `rho3` where it must be `rho5`
-//! (derivation `cartesian_equations`); its eqs. (17) and (21)-(23) give a reflection where `T < -1`, and `T = -1` is a second singularity beside `T = 1`:
+//! (derivation `cartesian_robot`); its eqs. (17) and (21)-(23) give a reflection where `T < -1`, and `T = -1` is a second singularity beside `T = 1`:
 //! there every rotation has its platform axes parallel to base axes.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};

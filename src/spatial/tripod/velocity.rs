@@ -61,7 +61,7 @@ impl Tripod {
     /// The Jacobian in a pose.
     ///
     /// **Shape**: 6 by 6, rows as [`Tripod::inverse`]. **Accuracy**: closed form. **Source**: derived here; the determinant for the Cartesian robot in the derivation
-    /// `cartesian_jacobian`.
+    /// `cartesian_robot`.
     ///
     /// # Errors
     /// As [`Tripod::inverse`]: the singularities of type 1.
