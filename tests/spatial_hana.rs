@@ -345,8 +345,14 @@ fn integrated(robot: &Hana, steps: u32, last: f64) -> f64 {
 
 #[test]
 fn areas_are_those_of_integration() {
-    // The independent check of the two areas that do not reproduce: 31.7521 and 32.7980 in print.
+    // The independent check of the two areas in print, 31.7521 and 32.7980, which are perimeters.
     let robot = Hana::example();
+    let perimeters = [
+        robot.workspace(0.0, HanaMode::ABOVE).expect("finite"),
+        robot.reachable_workspace(HanaMode::ABOVE).expect("is covered"),
+    ]
+    .map(|region| region.perimeter);
+    assert!((perimeters[0] - 31.7521).abs() < 5e-5 && (perimeters[1] - 32.7980).abs() < 5e-5, "{perimeters:?}");
     let level = integrated(&robot, 0, 0.0);
     assert!((level - 43.453_703).abs() < 1e-2, "{level}");
     let any = integrated(&robot, 90, std::f64::consts::FRAC_PI_2);

@@ -52,8 +52,7 @@ impl Hana {
     /// **Shape**: exact arcs in the plane `Oyz`. **Accuracy**: area, perimeter and centroid in closed form, a few roundings. **Source**: Liu et al., eqs. (25)-(31); the
     /// circles printed there are to be read as their lower halves.
     ///
-    /// The paper gives the area 31.7521 for its example. These arcs give 43.453703, as does integration over a grid, and the corner -7.81 that the
-    /// paper names is one of theirs.
+    /// The paper gives "the area" 31.7521 for its example. That is the perimeter of these arcs, 31.752141; their area is 43.453703, as integration confirms.
     ///
     /// # Errors
     /// An orientation that is not finite.
@@ -62,6 +61,7 @@ impl Hana {
     /// use assur::{Hana, HanaMode};
     /// let region = Hana::example().workspace(0.0, HanaMode::ABOVE)?;
     /// assert!((region.area - 43.45370270595534).abs() < 1e-11);
+    /// assert!((region.perimeter - 31.7521).abs() < 5e-5);
     /// assert_eq!(region.loops[0].1.len(), 4);
     /// # Ok::<(), assur::SpatialError>(())
     /// ```
@@ -95,7 +95,8 @@ impl Hana {
 
     /// The places of the platform's centre over all orientations between the quarter turns.
     ///
-    /// **Shape**, **accuracy** as [`Hana::workspace`]. The paper gives 32.7980 for its example; the arcs give 44.244826, as does a scan over orientations.
+    /// **Shape**, **accuracy** as [`Hana::workspace`]. The "area" 32.7980 in print is the perimeter, 32.797963;
+    /// the area is 44.244826, as a scan over orientations confirms.
     ///
     /// # Errors
     /// What is not covered: sliders 1 and 2 on opposite sides, different strokes of theirs, `r ≥ R`, a boundary that is no arc.
@@ -104,6 +105,7 @@ impl Hana {
     /// use assur::{Hana, HanaMode};
     /// let region = Hana::example().reachable_workspace(HanaMode::ABOVE)?;
     /// assert!((region.area - 44.244825742417675).abs() < 1e-11);
+    /// assert!((region.perimeter - 32.7980).abs() < 5e-5);
     /// # Ok::<(), assur::HanaWorkspaceError>(())
     /// ```
     pub fn reachable_workspace(&self, mode: HanaMode) -> Result<ArcRegion, HanaWorkspaceError> {
