@@ -51,6 +51,7 @@
 //!
 //! - Aberth 1973: O. Aberth, Iteration methods for finding all zeros of a polynomial simultaneously, Math. Comp. 27, 339-344.
 //! - Bareiss 1968: E. H. Bareiss, Sylvester's identity and multistep integer-preserving Gaussian elimination, Math. Comp. 22, 565-578.
+//! - Cherkhelanov, Bonev: E. Cherkhelanov, I. A. Bonev, A novel three-legged 6-DOF parallel robot with simple kinematics.
 //! - Collins and Akritas 1976: G. E. Collins, A. G. Akritas, Polynomial real root isolation using Descartes' rule of signs,
 //!   SYMSAC '76, 272-275.
 //! - Fujiwara 1916: M. Fujiwara, Über die obere Schranke des absoluten Betrages der Wurzeln einer algebraischen Gleichung, Tohoku Math.
@@ -60,6 +61,8 @@
 //!   trois degrés de liberté, Mech. Mach. Theory 27, 107-119.
 //! - Knuth 1969: D. E. Knuth, The Art of Computer Programming, vol. 2, Addison-Wesley (exact sums of two floats).
 //! - Krawczyk 1969: R. Krawczyk, Newton-Algorithmen zur Bestimmung von Nullstellen mit Fehlerschranken, Computing 4, 187-201.
+//! - Liu, Wang, Wang, Li 2004: X. Liu, J. Wang, Q. Wang, T. Li, Workspace and rotational capability analysis of a spatial 3-DoF parallel
+//!   manipulator.
 //! - Mitsi, Bouzakis, Mansour, Popescu: A method for forward displacement analysis of 3-RRP and 3-PRP planar parallel manipulators.
 //! - Mohamed and Duffy 1985: M. G. Mohamed, J. Duffy, A direct determination of the instantaneous kinematics of fully parallel robot
 //!   manipulators, J. Mech. Transm. Autom. Des. 107, 226-229.
@@ -92,6 +95,7 @@ pub mod manipulator;
 pub mod plot;
 pub mod roots;
 pub mod solve;
+pub mod spatial;
 
 pub use certify::Verdict;
 pub use linkage::{
@@ -111,6 +115,15 @@ pub use manipulator::{
 pub use solve::{
     Account, Eliminant, EliminateError, Outcome, Plan, RejectedRoot, RootRejection, Solution, Solutions, SolveError,
     System, eliminate, lift, solve,
+};
+
+pub use spatial::{
+    ArcCircle, ArcRegion, Capability, CapabilityMap, CapabilityStop, CapabilitySupremum, CartesianRobot,
+    CartesianSingular, Hana, HanaAssemblies, HanaAssembly, HanaFamily, HanaMode, HanaPose, HanaSingularKind,
+    HanaSingularity, HanaUnreachable, HanaVelocity, HanaViolation, HanaWay, HanaWays, HanaWorkspaceError, Hexapteron,
+    MixedReach, MixedSingularity, Orientations, PlaneConditions, Quadrupteron, SpatialError, Tilt, TiltLimit, Tripod,
+    TripodAssemblies, TripodAssembly, TripodError, TripodLeg, TripodPose, TripodReach, TripodSingularity, TripodStatus,
+    TripodVelocity, WorkspaceArc,
 };
 
 /// The README's code runs as a test.

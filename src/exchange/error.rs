@@ -6,6 +6,7 @@ use thiserror::Error;
 
 use crate::linkage::{CouplerError, LinkageError, TriadError, TrussError};
 use crate::manipulator::DescriptionError;
+use crate::spatial::TripodError;
 
 /// The two forms of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,6 +92,14 @@ pub enum FileError {
         file: String,
         /// What is wrong.
         error: TrussError,
+    },
+    /// The fields make no spatial robot.
+    #[error("{file}: {error}")]
+    Spatial {
+        /// The file.
+        file: String,
+        /// What is wrong.
+        error: TripodError,
     },
     /// The fields make no triad.
     #[error("{file}: {error}")]

@@ -6,13 +6,15 @@ use super::error::{FieldProblem, FileError, nearest};
 use super::tree::Tree;
 
 /// What files call themselves, with the command that takes each.
-const KINDS: [(&str, &str); 6] = [
+const KINDS: [(&str, &str); 8] = [
     ("assur/manipulator/1", "forward"),
     ("assur/triad/1", "triad"),
     ("assur/forward/1", "verify"),
     ("assur/group/1", "group"),
     ("assur/linkage/1", "group"),
     ("assur/coupler/1", "coupler"),
+    ("assur/hana/1", "hana"),
+    ("assur/tripod/1", "tripod"),
 ];
 
 /// A value and where it stands.
@@ -139,6 +141,26 @@ impl<'a> Field<'a> {
     pub(super) fn pair(&self) -> Result<[f64; 2], FileError> {
         let [first, second] = self.array("two numbers")?;
         Ok([first.number()?, second.number()?])
+    }
+
+    /// Three finite numbers.
+    pub(super) fn triple(&self) -> Result<[f64; 3], FileError> {
+        let [first, second, third] = self.array("three numbers")?;
+        Ok([first.number()?, second.number()?, third.number()?])
+    }
+
+    /// One range for all, or a list of `N`.
+    pub(super) fn ranges<const N: usize>(&self) -> Result<[[f64; 2]; N], FileError> {
+        let items = self.list("one range [a, b] or a list of them")?;
+        if items.iter().all(|item| matches!(item.tree(), Tree::Number(_))) {
+            return Ok([self.pair()?; N]);
+        }
+        let fields: [Field; N] = self.array(&format!("one range [a, b] or a list of {N}"))?;
+        let mut ranges = [[0.0; 2]; N];
+        for (range, field) in ranges.iter_mut().zip(fields) {
+            *range = field.pair()?;
+        }
+        Ok(ranges)
     }
 
     pub(super) fn vector(&self) -> Result<Vector2<f64>, FileError> {

@@ -94,7 +94,7 @@ fn inverse([p, q, r]: &[ClosureRow<L>; 3]) -> [[L; 3]; 3] {
 
 /// How far the only assembly near a pose can be from it: bounds on the differences in `u` (both coordinates) and in `phi`; NaN or infinite where none is proved.
 ///
-/// `(c, s)` stands for the direction it points in; it has modulus 1 to within two roundings. The legs' numbers stand for all within `roundings` roundings.
+/// `(c, s)` stands for the direction it points in; it has modulus 1 to within four roundings. The legs' numbers stand for all within `roundings` roundings.
 #[inline(always)]
 pub(super) fn proved_radii(
     legs: &[LegNumbers<f64>; 3],
@@ -110,7 +110,7 @@ pub(super) fn proved_radii(
     let largest = |x: L| x.0[..used].iter().fold(0.0, |m: f64, x| if x.abs() > m { x.abs() } else { m });
     let (ux, uy) = (largest(u.re), largest(u.im));
     let place = Gaussian::new(Bounded::given(ux), Bounded::given(uy));
-    let unit = Bounded::rounded_times(1.0, 2);
+    let unit = Bounded::rounded_times(1.0, 4);
     let mut radii = [L::all(0.0); 3];
     let (mut value, mut slope, mut curvature) = ([0.0; 3], [0.0; 3], [0.0; 3]);
     for k in 0..3 {

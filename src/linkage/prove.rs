@@ -1,7 +1,7 @@
 //! How many assembly modes, as a theorem, and a box around each.
 //!
-//! Two routes. The *filter* counts the real roots of `T` in floating point, by a bound on all rounding errors ([`Triad::real_modes_fast`]), and proves
-//! a box for each on the loop equations in intervals: every root of `T` is simple then, above a simple root lies exactly one pose (step 5 of the
+//! Two routes. The *filter* counts the real roots of `T` in floating point, by a bound on all rounding errors (as [`Triad::real_modes`] does), and proves
+//! a box for each on the loop equations by Krawczyk's operator with counted roundings: every root of `T` is simple then, above a simple root lies exactly one pose (step 5 of the
 //! derivation `filter_bound`), and boxes that do not meet hold different poses. Where a bound is not met, the *exact* route counts over the
 //! integers and rounds boxes outward from isolated roots. Either way the theorem is about the triad whose numbers are exactly the `f64`s given.
 

@@ -141,6 +141,8 @@ impl pulp::NullaryFnOnce for Fast<'_> {
 /// Newton steps on the loop equations, and the step (radians, and lengths over the group's) whose square is below rounding.
 const STEPS: usize = 3;
 const LAST_STEP: f64 = 1e-8;
+/// The largest turn of a Newton step in radians: its cube, by which angle and direction part, is below rounding.
+const LARGEST_TURN: f64 = 1e-5;
 /// Largest closure error of a pose that needs no second look, over the group's size.
 const CLOSURE: f64 = 1e-13;
 /// Least determinant of the rows scaled to norm 1: below, a pose may have fewer than nine digits.
@@ -258,6 +260,7 @@ impl Local {
         let mut turned = L::all(0.0);
         let used = (roots.count() - first).min(WIDTH);
         let mut settled = false;
+        let mut largest_turn = L::all(0.0);
         for _ in 0..STEPS {
             let (du, dphi) = newton_step(&closure_rows(legs, u, c, s));
             u = u + du;
@@ -266,6 +269,7 @@ impl Local {
             // Of modulus 1 to the fourth power of the step.
             let (dc, ds) = (L::all(1.0) - half, dphi);
             (c, s) = (c * dc - s * ds, s * dc + c * ds);
+            largest_turn = dphi.zip(largest_turn, |x, y| if x.abs() > y { x.abs() } else { y });
             let step = dphi.zip(du.re, |x, y| x.abs().max(y.abs())).zip(du.im, |x, y| x.max(y.abs()));
             settled = step.0[..used].iter().all(|&x| x <= LAST_STEP);
             if settled {
@@ -283,6 +287,7 @@ impl Local {
         for i in 0..used {
             let [below, above] = roots.room().map(|room| room[first + i]);
             let sound = (residual.0[i] <= CLOSURE)
+                & (largest_turn.0[i] <= LARGEST_TURN)
                 & (regular.0[i].abs() >= REGULAR)
                 & (turned.0[i] >= -below - ROOM_SLACK)
                 & (turned.0[i] <= above + ROOM_SLACK);
@@ -419,15 +424,11 @@ fn local_leg(leg: &Dyad, a0: [f64; 2], b0: [f64; 2], inverse: f64) -> Option<Leg
         Dyad::RP { v, offset, .. } => {
             let own = 1.0 / power_of_two(v.x.abs().max(v.y.abs()))?;
             let delta = match offset {
-                Offset::TimesDirection(delta) => delta,
-                Offset::Distance(d) => d * v.x.hypot(v.y),
+                Offset::TimesDirection(delta) => delta * inverse * own,
+                // With the direction scaled first, nothing leaves the range on the way.
+                Offset::Distance(d) => d * inverse * (v.x * own).hypot(v.y * own),
             };
-            LegNumbers::PlatformLine {
-                alpha,
-                beta,
-                normal: Gaussian::new(-v.y * own, v.x * own),
-                delta: delta * own * inverse,
-            }
+            LegNumbers::PlatformLine { alpha, beta, normal: Gaussian::new(-v.y * own, v.x * own), delta }
         }
         Dyad::PP { .. } => return None,
     })

@@ -24,14 +24,16 @@ const EDGE: &str = "#8a949e";
 pub(super) struct Chart {
     window: PlaneWindow,
     scale: f64,
-    size: Vector2<f64>,
+    pub(super) size: Vector2<f64>,
+    /// Names of the axes.
+    pub(super) axes: [&'static str; 2],
 }
 
 impl Chart {
     pub(super) fn new(window: &PlaneWindow) -> Self {
         let extent = (window.high - window.low).map(|side| side.max(f64::MIN_POSITIVE));
         let scale = SIDE / extent.max();
-        Self { window: *window, scale, size: extent * scale }
+        Self { window: *window, scale, size: extent * scale, axes: ["x", "y"] }
     }
 
     pub(super) fn x(&self, p: Vector2<f64>) -> f64 {
@@ -75,7 +77,8 @@ impl Chart {
                     document.add(mark).add(label(&number(tick), place.0, place.1, 11.0).set("text-anchor", anchor));
             }
         }
-        let names = [("x", LEFT + self.size.x / 2.0, height - 10.0), ("y", 14.0, TOP + self.size.y / 2.0)];
+        let [across, up] = self.axes;
+        let names = [(across, LEFT + self.size.x / 2.0, height - 10.0), (up, 14.0, TOP + self.size.y / 2.0)];
         for (name, x, y) in names {
             document = document.add(label(name, x, y, 13.0).set("font-style", "italic"));
         }
@@ -209,7 +212,7 @@ fn strokes<'a>(chart: &Chart, pieces: impl IntoIterator<Item = &'a [Vector2<f64>
 }
 
 /// From low to high: dark blue, green, yellow.
-fn colour(part: f64) -> String {
+pub(super) fn colour(part: f64) -> String {
     let stops =
         [[68.0, 1.0, 84.0], [59.0, 82.0, 139.0], [33.0, 145.0, 140.0], [94.0, 201.0, 98.0], [253.0, 231.0, 37.0]];
     let place = part.clamp(0.0, 1.0) * 4.0;

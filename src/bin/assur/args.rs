@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
+use crate::spatial::{HanaCommand, TripodCommand};
+
 /// Every assembly mode of planar mechanisms.
 #[derive(Parser)]
 #[command(version, about, arg_required_else_help = true)]
@@ -28,7 +30,8 @@ pub(crate) enum Command {
     /// Prints a commented model to start from.
     #[command(
         after_help = "Families: 3-RPR, 3-RRR, 3-PRR, 3-RRP, 3-PRP, 3-PPR, 3-RPP; with the actuated joint marked, \
-        3-_R_RR; three different legs, R_P_R,_P_RR,_R_RR.\nExample:  assur new 3-RPR --output arm.toml"
+        3-_R_RR; three different legs, R_P_R,_P_RR,_R_RR; \
+        the spatial robots hana and tripod.\nExample:  assur new 3-RPR --output arm.toml"
     )]
     New {
         /// The family, as 3-RPR.
@@ -222,6 +225,16 @@ pub(crate) enum Command {
         /// Prints one JSON document.
         #[arg(long)]
         json: bool,
+    },
+    /// HANA: a spatial robot of three degrees of freedom.
+    Hana {
+        #[command(subcommand)]
+        command: HanaCommand,
+    },
+    /// Three-legged robots of six degrees of freedom.
+    Tripod {
+        #[command(subcommand)]
+        command: TripodCommand,
     },
     /// Prints a derivation worked through, or lists them.
     #[command(after_help = "Example:  assur derive --list")]

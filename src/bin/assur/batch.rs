@@ -3,7 +3,7 @@
 //! Each block of the input becomes a part, written under another name and renamed when whole. A part's name holds a fingerprint of all that went into it, so that a
 //! later run knows which parts are still right. When all are there they are joined, and only then the output appears.
 
-use std::fs::{self, File};
+use std::fs::{self, File, TryLockError};
 use std::io::{self, BufRead, BufReader, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -29,8 +29,23 @@ pub(crate) fn run(
 ) -> Result<(), Failure> {
     let output = output.expect("the command line asks for an output with a batch");
     let format = output_format(output, format)?;
-    let job = Job { model: ModelFile::read(model)?, format, counts: Counts::default(), started: Instant::now() };
+    // What a link leads to is written, not the link.
+    let resolved = fs::canonicalize(output).ok();
+    for source in [input, model] {
+        if resolved.is_some() && fs::canonicalize(source).ok() == resolved {
+            let reason = "is read for this batch and must not be written over";
+            return Err(Failure::About(output.display().to_string(), reason.to_owned()));
+        }
+    }
+    let output = resolved.as_deref().unwrap_or(output);
     let (reader, size) = open(input)?;
+    let job = Job {
+        model: ModelFile::read(model)?,
+        format,
+        counts: Counts::default(),
+        started: Instant::now(),
+        waits_for_nobody: size.is_some(),
+    };
     let bar = match size {
         Some(_) => progress(size, "{wide_bar} {percent}% of {total_bytes}, {bytes_per_sec}, {eta} left"),
         None => progress(None, "{spinner} {bytes}, {bytes_per_sec}, {elapsed}"),
@@ -97,6 +112,8 @@ struct Job {
     format: RowFormat,
     counts: Counts,
     started: Instant,
+    /// Rows come from a file, not from a pipe that may stand still.
+    waits_for_nobody: bool,
 }
 
 #[derive(Default)]
@@ -202,9 +219,15 @@ impl Job {
     fn to_file<R: BufRead + Send>(&self, blocks: InputBlocks<R>, output: &Path) -> Result<Summary, Failure> {
         let parts = Parts::beside(output)?;
         let interrupted = Arc::new(AtomicBool::new(false));
-        let flag = Arc::clone(&interrupted);
-        // Without a handler Ctrl-C ends the program at once, which loses no part either.
-        let _ = ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed));
+        if self.waits_for_nobody {
+            // Without a handler Ctrl-C ends the program at once, which loses no part either; a second one does so here too.
+            let flag = Arc::clone(&interrupted);
+            let _ = ctrlc::set_handler(move || {
+                if flag.swap(true, Ordering::Relaxed) {
+                    std::process::exit(130);
+                }
+            });
+        }
         let rest = (self.model.to_toml(), self.format, env!("CARGO_PKG_VERSION"));
         let names: Mutex<Vec<(u64, String)>> = Mutex::default();
         let taken_up: Mutex<[u64; 2]> = Mutex::default();
@@ -242,6 +265,8 @@ fn rejects_csv(rejects: &[Reject]) -> Vec<u8> {
 /// The folder of parts beside an output.
 struct Parts {
     folder: PathBuf,
+    /// Held as long as this run writes here.
+    _lock: File,
 }
 
 fn unwritable(path: &Path) -> impl Fn(io::Error) -> Failure + '_ {
@@ -255,6 +280,19 @@ fn with_ending(path: &Path, ending: &str) -> PathBuf {
     name.into()
 }
 
+/// Names in the folder of parts that belong to no part.
+const LOCK: &str = "lock";
+const JOINED: &str = "joined.tmp";
+const REJECTS: &str = "rejects.tmp";
+
+impl Drop for Parts {
+    /// A folder in which nothing is left goes; one with parts stays for the next run.
+    fn drop(&mut self) {
+        let _ = fs::remove_file(self.folder.join(LOCK));
+        let _ = fs::remove_dir(&self.folder);
+    }
+}
+
 impl Parts {
     fn beside(output: &Path) -> Result<Self, Failure> {
         if output.is_dir() {
@@ -265,7 +303,15 @@ impl Parts {
             Err(error) if error.kind() != io::ErrorKind::AlreadyExists => return Err(unwritable(&folder)(error)),
             _ => {}
         }
-        Ok(Self { folder })
+        let path = folder.join(LOCK);
+        let lock = File::create(&path).map_err(unwritable(&path))?;
+        match lock.try_lock() {
+            Ok(()) => Ok(Self { folder, _lock: lock }),
+            Err(TryLockError::WouldBlock) => {
+                Err(Failure::About(output.display().to_string(), "another run is writing this".to_owned()))
+            }
+            Err(TryLockError::Error(error)) => Err(unwritable(&path)(error)),
+        }
     }
 
     fn how_to_go_on(&self) -> String {
@@ -276,21 +322,22 @@ impl Parts {
         self.folder.join(format!("{name}.{ending}"))
     }
 
-    /// Rows and rejects of a part that is there and whole: its counts are written last.
+    /// Rows and rejects of a part that is there and whole: its counts are written last, with the lengths of its files.
     fn counts(&self, name: &str) -> Option<[u64; 2]> {
         let text = fs::read_to_string(self.path(name, "done")).ok()?;
-        let mut numbers = text.split_whitespace().map(str::parse);
-        Some([numbers.next()?.ok()?, numbers.next()?.ok()?])
+        let numbers: Vec<u64> = text.split_whitespace().map(str::parse).collect::<Result<_, _>>().ok()?;
+        let &[rows, rejects, row_bytes, reject_bytes] = &numbers[..] else { return None };
+        let has = |ending, bytes| fs::metadata(self.path(name, ending)).is_ok_and(|file| file.len() == bytes);
+        (has("rows", row_bytes) && has("rejects", reject_bytes)).then_some([rows, rejects])
     }
 
     fn write(&self, name: &str, part: &Part) -> Result<(), Failure> {
         let rejects = part.rejects.iter().filter(|&&byte| byte == b'\n').count();
-        let counts = format!("{} {rejects}\n", part.rows);
-        for (ending, content) in
-            [("rows", &part.bytes[..]), ("rejects", &part.rejects[..]), ("done", counts.as_bytes())]
+        let done = format!("{} {rejects} {} {}\n", part.rows, part.bytes.len(), part.rejects.len());
+        for (ending, content) in [("rows", &part.bytes[..]), ("rejects", &part.rejects[..]), ("done", done.as_bytes())]
         {
             let path = self.path(name, ending);
-            let temporary = with_ending(&path, &format!(".{}.tmp", std::process::id()));
+            let temporary = with_ending(&path, ".tmp");
             let written = fs::write(&temporary, content).and_then(|()| fs::rename(&temporary, &path));
             if written.is_err() {
                 let _ = fs::remove_file(&temporary);
@@ -298,6 +345,11 @@ impl Parts {
             written.map_err(unwritable(&path))?;
         }
         Ok(())
+    }
+
+    fn read(&self, name: &str, ending: &str) -> Result<Vec<u8>, Failure> {
+        let path = self.path(name, ending);
+        fs::read(&path).map_err(|error| Failure::About(path.display().to_string(), format!("cannot be read: {error}")))
     }
 
     /// Joins the parts; the output appears last, the folder goes. Gives the name of the file of rejects, where there is one.
@@ -308,37 +360,39 @@ impl Parts {
         format: RowFormat,
         inputs: usize,
     ) -> Result<Option<String>, Failure> {
+        let (joined, rejects) = (self.folder.join(JOINED), self.folder.join(REJECTS));
         let rejects_path = with_ending(output, ".rejects.csv");
-        let mut rejects = Vec::new();
-        for (_, name) in names {
-            let path = self.path(name, "rejects");
-            rejects.extend(fs::read(&path).map_err(unwritable(&path))?);
-        }
-        let temporary = with_ending(output, &format!(".{}.tmp", std::process::id()));
-        let joined = self.join_rows(names, &temporary, format, inputs).and_then(|()| {
-            if rejects.is_empty() {
-                // What an earlier batch left would be taken for this one's.
-                match fs::remove_file(&rejects_path) {
-                    Err(error) if error.kind() != io::ErrorKind::NotFound => Err(unwritable(&rejects_path)(error)),
-                    _ => Ok(()),
-                }
-            } else {
-                let content = [b"row,reason\n", &rejects[..]].concat();
-                let staged = with_ending(&rejects_path, &format!(".{}.tmp", std::process::id()));
-                let written = fs::write(&staged, content).and_then(|()| fs::rename(&staged, &rejects_path));
-                if written.is_err() {
-                    let _ = fs::remove_file(&staged);
-                }
-                written.map_err(unwritable(&rejects_path))
+        self.join_rows(names, &joined, format, inputs)?;
+        let rejected = self.join_rejects(names, &rejects)?;
+        if rejected {
+            fs::rename(&rejects, &rejects_path).map_err(unwritable(&rejects_path))?;
+        } else {
+            // What an earlier batch left would be taken for this one's.
+            match fs::remove_file(&rejects_path) {
+                Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(unwritable(&rejects_path)(error)),
+                _ => {}
             }
-        });
-        let joined = joined.and_then(|()| fs::rename(&temporary, output).map_err(unwritable(output)));
-        if joined.is_err() {
-            let _ = fs::remove_file(&temporary);
         }
-        joined?;
+        fs::rename(&joined, output).map_err(unwritable(output))?;
         self.remove();
-        Ok((!rejects.is_empty()).then(|| rejects_path.display().to_string()))
+        Ok(rejected.then(|| rejects_path.display().to_string()))
+    }
+
+    /// Whether there is any.
+    fn join_rejects(&self, names: &[(u64, String)], out: &Path) -> Result<bool, Failure> {
+        let mut file = BufWriter::new(File::create(out).map_err(unwritable(out))?);
+        file.write_all(b"row,reason\n").map_err(unwritable(out))?;
+        let mut any = false;
+        for (_, name) in names {
+            let content = self.read(name, "rejects")?;
+            any |= !content.is_empty();
+            file.write_all(&content).map_err(unwritable(out))?;
+        }
+        file.into_inner()
+            .map_err(|error| error.into_error())
+            .and_then(|file| file.sync_all())
+            .map_err(unwritable(out))?;
+        Ok(any)
     }
 
     /// Removes the parts, also those of other questions, and the folder where nothing else is in it. The answer is there: what cannot be removed does no harm.
@@ -349,12 +403,12 @@ impl Parts {
             let hexadecimal = fingerprint.len() == 16 && u64::from_str_radix(fingerprint, 16).is_ok();
             (hexadecimal && number.parse::<u64>().is_ok()).then_some(())
         };
+        let is_ours = |name: &str| [JOINED, REJECTS].contains(&name) || is_part(name).is_some();
         for entry in fs::read_dir(&self.folder).into_iter().flatten().flatten() {
-            if entry.file_name().to_str().and_then(is_part).is_some() {
+            if entry.file_name().to_str().is_some_and(is_ours) {
                 let _ = fs::remove_file(entry.path());
             }
         }
-        let _ = fs::remove_dir(&self.folder);
     }
 
     fn join_rows(&self, names: &[(u64, String)], out: &Path, format: RowFormat, inputs: usize) -> Result<(), Failure> {
@@ -365,9 +419,10 @@ impl Parts {
         let file = BufWriter::with_capacity(1 << 20, File::create(out).map_err(unwritable(out))?);
         let mut writer = BatchWriter::new(file, format, inputs).map_err(failed)?;
         for (_, name) in names {
-            let path = self.path(name, "rows");
-            writer.add(fs::read(&path).map_err(unwritable(&path))?).map_err(failed)?;
+            writer.add(self.read(name, "rows")?).map_err(failed)?;
         }
-        writer.finish().map_err(failed)
+        writer.finish().map_err(failed)?;
+        // Only what has reached the disk may take the output's name.
+        File::open(out).and_then(|file| file.sync_all()).map_err(unwritable(out))
     }
 }

@@ -13,6 +13,8 @@ struct Derivation {
 
 #[path = "../../../derivations/acceleration_term.rs"]
 mod acceleration_term;
+#[path = "../../../derivations/cartesian_robot.rs"]
+mod cartesian_robot;
 #[path = "../../../derivations/charts.rs"]
 mod charts;
 #[path = "../../../derivations/coupler_intersections.rs"]
@@ -25,6 +27,8 @@ mod degree_table;
 mod dixon_pencils;
 #[path = "../../../derivations/filter_bound.rs"]
 mod filter_bound;
+#[path = "../../../derivations/hana_forward.rs"]
+mod hana_forward;
 #[path = "../../../derivations/leg_reductions.rs"]
 mod leg_reductions;
 #[path = "../../../derivations/prr_rows.rs"]
@@ -35,23 +39,28 @@ mod rp_rp_rp_octic;
 mod singularity_degrees;
 #[path = "../../../derivations/triad_sextic.rs"]
 mod triad_sextic;
+#[path = "../../../derivations/tripod_orientation.rs"]
+mod tripod_orientation;
 #[path = "../../../derivations/velocity_row.rs"]
 mod velocity_row;
 
 /// Every derivation is a program of its own as well; here only its text is used.
-const _: [fn(); 13] = [
+const _: [fn(); 16] = [
     acceleration_term::main,
+    cartesian_robot::main,
     charts::main,
     coupler_intersections::main,
     coupler_sextic::main,
     degree_table::main,
     dixon_pencils::main,
     filter_bound::main,
+    hana_forward::main,
     leg_reductions::main,
     prr_rows::main,
     rp_rp_rp_octic::main,
     singularity_degrees::main,
     triad_sextic::main,
+    tripod_orientation::main,
     velocity_row::main,
 ];
 
@@ -121,6 +130,21 @@ const DERIVATIONS: &[Derivation] = &[
         name: "dixon_pencils",
         claim: "larger groups as generalised eigenproblems; the triad's sextic is the 6x6 case",
         document: dixon_pencils::document,
+    },
+    Derivation {
+        name: "hana_forward",
+        claim: "HANA's forward kinematics is a product: two families of four, by square roots",
+        document: hana_forward::document,
+    },
+    Derivation {
+        name: "tripod_orientation",
+        claim: "the orientation of a three-legged robot has degree 8",
+        document: tripod_orientation::document,
+    },
+    Derivation {
+        name: "cartesian_robot",
+        claim: "the Cartesian robot's equations as printed and as corrected, and its two singularities",
+        document: cartesian_robot::document,
     },
 ];
 

@@ -7,6 +7,7 @@ mod kinematics;
 mod linkages;
 mod output;
 mod png;
+mod spatial;
 mod tables;
 
 use std::path::Path;
@@ -53,6 +54,8 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::Coupler { file, complex, shown } => linkages::coupler(&file, complex, &shown),
         Command::Group { file, inputs, complex, shown } => linkages::group(&file, &inputs, complex, &shown),
         Command::Triad { file, asked } => triad(&file, &asked),
+        Command::Hana { command } => spatial::hana(command),
+        Command::Tripod { command } => spatial::tripod(command),
         Command::Verify { report, model, tolerance, json } => verify(&report, &model, tolerance, json),
         Command::Derive { name: Some(name), .. } => output::print(&derive::document(&name)?),
         Command::Derive { name: None, .. } => output::print(&derive::list()),
@@ -64,7 +67,19 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     }
 }
 
+/// Models of the spatial robots, as in `examples/`.
+const SPATIAL_MODELS: [(&str, &str); 2] = [
+    ("hana", include_str!("../../../examples/hana.toml")),
+    ("tripod", include_str!("../../../examples/tripod-cartesian.toml")),
+];
+
 fn new(family: &str, output: Option<&Path>) -> Result<(), Failure> {
+    if let Some((_, text)) = SPATIAL_MODELS.iter().find(|(name, _)| family.eq_ignore_ascii_case(name)) {
+        return match output {
+            Some(path) => Files::default().with(path, text.as_bytes().to_vec()).write(),
+            None => output::print(text),
+        };
+    }
     let (manipulator, inputs) = Manipulator::of_family(family)?;
     let angle_unit = AngleUnit::Deg;
     let inputs = tables::inputs(&manipulator, &inputs, angle_unit);

@@ -36,22 +36,20 @@ pub enum BatchFileError {
         /// The file.
         file: String,
     },
-    /// A line is longer than any row could be.
-    #[error("{file}: row {row}: a line of more than {limit} bytes is no row")]
-    LongLine {
+    /// The first line does not end.
+    #[error(
+        "{file}: the header does not end: lines end with a line feed, and none is longer than {LONGEST_LINE} bytes"
+    )]
+    Endless {
         /// The file.
         file: String,
-        /// Row of data, from 1.
-        row: u64,
-        /// The limit in bytes.
-        limit: usize,
     },
 }
 
 /// Bytes after which a block ends with its line: some ten thousand rows.
 const BLOCK_BYTES: usize = 1 << 20;
 
-/// No row of numbers is longer than this; a file without line ends must not fill memory.
+/// No row of numbers is longer than this, in bytes; a file without line ends must not fill memory.
 const LONGEST_LINE: usize = 1 << 16;
 
 /// Whole lines of a file of rows.
@@ -64,6 +62,9 @@ pub struct InputBlock {
     lines: Vec<u8>,
     layout: Layout,
 }
+
+/// Stands in a block for a line that is too long.
+const TOO_LONG: &[u8] = b"\0\n";
 
 /// Where the inputs are in a line.
 #[derive(Clone, Debug)]
@@ -98,14 +99,20 @@ pub struct InputBlocks<R> {
 impl<R: BufRead> InputBlocks<R> {
     /// Begins a file: CSV with columns `q1`, `q2`, … among others, in any order, or JSON lines of lists or of objects with these keys. `inputs`: how many there are.
     ///
+    /// Lines end with a line feed, with or without a carriage return before it; commas part fields even between quotes. Blank lines are no rows; a line of more than 65,536 bytes is
+    /// a row that cannot be asked.
+    ///
     /// # Errors
-    /// A header without one of the inputs, an unreadable file, Parquet.
+    /// A header without one of the inputs or without an end, an unreadable file, Parquet.
     pub fn new(mut reader: R, file: &str, format: RowFormat, inputs: usize) -> Result<Self, BatchFileError> {
         let layout = match format {
             RowFormat::Csv => {
                 let mut header = Vec::new();
                 let unreadable = |error| BatchFileError::Unreadable { file: file.to_owned(), error };
-                io::Read::take(&mut reader, LONGEST_LINE as u64).read_until(b'\n', &mut header).map_err(unreadable)?;
+                limited(&mut reader).read_until(b'\n', &mut header).map_err(unreadable)?;
+                if header.len() == LONGEST_LINE && !header.ends_with(b"\n") {
+                    return Err(BatchFileError::Endless { file: file.to_owned() });
+                }
                 csv_layout(&header, file, inputs)?
             }
             RowFormat::JsonLines => Layout::JsonLines(inputs),
@@ -118,15 +125,20 @@ impl<R: BufRead> InputBlocks<R> {
         let (mut lines, mut rows) = (Vec::with_capacity(BLOCK_BYTES + 256), 0);
         while lines.len() < BLOCK_BYTES {
             let before = lines.len();
-            let limited = &mut io::Read::take(&mut self.reader, LONGEST_LINE as u64);
-            let read = limited.read_until(b'\n', &mut lines);
-            let read = read.map_err(|error| BatchFileError::Unreadable { file: self.file.clone(), error })?;
-            if read == LONGEST_LINE && lines.last() != Some(&b'\n') {
-                let row = self.next_row + rows;
-                return Err(BatchFileError::LongLine { file: self.file.clone(), row, limit: LONGEST_LINE });
-            }
+            let unreadable = |error| BatchFileError::Unreadable { file: self.file.clone(), error };
+            let read = limited(&mut self.reader).read_until(b'\n', &mut lines).map_err(unreadable)?;
             if read == 0 {
                 break;
+            }
+            if read == LONGEST_LINE && !lines.ends_with(b"\n") {
+                lines.truncate(before);
+                lines.extend(TOO_LONG);
+                let mut rest = Vec::new();
+                while limited(&mut self.reader).read_until(b'\n', &mut rest).map_err(unreadable)? == LONGEST_LINE
+                    && !rest.ends_with(b"\n")
+                {
+                    rest.clear();
+                }
             }
             rows += u64::from(!is_blank(&lines[before..]));
         }
@@ -153,23 +165,28 @@ impl<R: BufRead> Iterator for InputBlocks<R> {
     }
 }
 
-/// Blank lines are no rows; the CSV reader passes over the same ones.
+/// The reader up to the longest line.
+fn limited<R: BufRead>(reader: &mut R) -> io::Take<&mut R> {
+    io::Read::take(reader, LONGEST_LINE as u64)
+}
+
+/// Blank lines are no rows.
 fn is_blank(line: &[u8]) -> bool {
     line.iter().all(|byte| matches!(byte, b'\n' | b'\r'))
 }
 
 fn csv_layout(header: &[u8], file: &str, inputs: usize) -> Result<Layout, BatchFileError> {
-    let mut names = csv::StringRecord::new();
     let header = String::from_utf8_lossy(header);
-    let text = header.trim_start_matches('\u{feff}');
-    let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(text.as_bytes());
-    // A line in memory cannot fail to be read; one that is no CSV has no columns.
-    let _ = reader.read_record(&mut names);
+    let text = header.trim_start_matches('\u{feff}').trim_end_matches(['\r', '\n']);
+    if text.contains('\r') {
+        return Err(BatchFileError::Endless { file: file.to_owned() });
+    }
+    let names: Vec<&str> = text.split(',').map(|name| name.trim().trim_matches('"')).collect();
     let wanted: Vec<String> = (1..=inputs).map(|k| format!("q{k}")).collect();
     let column = |name: &String| {
-        names.iter().position(|found| found.trim() == name).ok_or_else(|| BatchFileError::Header {
+        names.iter().position(|found| found == name).ok_or_else(|| BatchFileError::Header {
             file: file.to_owned(),
-            found: text.trim_end().chars().take(80).collect(),
+            found: text.chars().take(80).collect(),
             missing: name.clone(),
             expected: wanted.join(","),
         })
@@ -204,38 +221,43 @@ impl InputBlock {
         }
     }
 
+    /// The lines that are rows, with their numbers; the same rule that counted them.
+    fn numbered(&self) -> impl Iterator<Item = (u64, &[u8])> {
+        (self.first_row..).zip(self.lines.split(|&byte| byte == b'\n').filter(|line| !is_blank(line)))
+    }
+
     fn csv_rows(&self, columns: &[usize], count: usize) -> Rows {
         let mut out = Rows::default();
-        let mut reader =
-            csv::ReaderBuilder::new().has_headers(false).flexible(true).quoting(false).from_reader(&self.lines[..]);
-        let mut record = csv::ByteRecord::new();
-        let mut row = self.first_row;
-        // A slice cannot fail to be read, and every byte string is a record.
-        while reader.read_byte_record(&mut record).unwrap_or(false) {
-            let values = || {
-                if record.len() != count {
-                    return Err(format!("{} values, must be {count}", record.len()));
+        let mut fields: Vec<&[u8]> = Vec::with_capacity(count);
+        for (row, line) in self.numbered() {
+            fields.clear();
+            fields.extend(line.split(|&byte| byte == b','));
+            out.push(row, line, || {
+                if fields.len() != count {
+                    return Err(format!("{} values, must be {count}", fields.len()));
                 }
-                columns.iter().zip(1..).map(|(&column, input)| number(&record[column], input)).collect()
-            };
-            out.push(row, values());
-            row += 1;
+                columns.iter().zip(1..).map(|(&column, input)| number(fields[column], input)).collect()
+            });
         }
         out
     }
 
     fn json_rows(&self, inputs: usize) -> Rows {
         let mut out = Rows::default();
-        let lines = self.lines.split(|&byte| byte == b'\n').filter(|line| !is_blank(line));
-        for (row, line) in (self.first_row..).zip(lines) {
-            out.push(row, json_values(line, inputs));
+        for (row, line) in self.numbered() {
+            out.push(row, line, || json_values(line, inputs));
         }
         out
     }
 }
 
 impl Rows {
-    fn push(&mut self, row: u64, values: Result<Vec<f64>, String>) {
+    fn push(&mut self, row: u64, line: &[u8], values: impl FnOnce() -> Result<Vec<f64>, String>) {
+        let values = if TOO_LONG.starts_with(line) {
+            Err(format!("a line of more than {LONGEST_LINE} bytes is no row"))
+        } else {
+            values()
+        };
         match values {
             Ok(values) => {
                 self.numbers.push(row);
@@ -327,11 +349,16 @@ mod tests {
         let message = begin("q1,q3\n1,2\n").expect("no q2").to_string();
         assert_eq!(message, "in.csv: header \"q1,q3\" has no column q2; it must have q1,q2,q3");
         assert!(begin("").expect("nothing").to_string().contains("q1"));
-        let endless = "1".repeat(200_000);
-        let text = format!("q1,q2,q3\n{endless}");
-        let mut blocks = InputBlocks::new(text.as_bytes(), "in.csv", RowFormat::Csv, 3).expect("a header");
-        let error = blocks.next().expect("a line").expect_err("too long").to_string();
-        assert!(error.contains("row 1") && error.contains("65536"), "{error}");
-        assert!(blocks.next().is_none());
+        assert!(begin("q1,q2,q3\r1,2,3\r").expect("no line feed").to_string().contains("does not end"));
+    }
+
+    #[test]
+    fn lines_are_counted_as_they_are_read() {
+        let long = "1".repeat(200_000);
+        let text = format!("q1,q2,q3\r\n1,2,3\r\n\r\n{long}\n4,5\r6,7\n8,9,10");
+        let [found] = &rows(&text, RowFormat::Csv)[..] else { panic!("one block") };
+        assert_eq!((&found.numbers[..], &found.inputs[..]), (&[1, 4][..], &[1.0, 2.0, 3.0, 8.0, 9.0, 10.0][..]));
+        assert_eq!(found.rejects.iter().map(|r| r.row).collect::<Vec<_>>(), [2, 3]);
+        assert!(found.rejects[0].reason.contains("65536"), "{}", found.rejects[0].reason);
     }
 }

@@ -1,0 +1,173 @@
+//! Pictures of the two spatial robots' answers: workspaces, maps of capability and of tilt.
+
+use nalgebra::Vector2;
+use svg::Document;
+use svg::node::element::{Group, Path, Polyline, Rectangle};
+
+use super::plane::{COLOURS, Chart, TOP, colour, label};
+use super::scene::number;
+use super::symbols::{INK, QUIET};
+use crate::manipulator::PlaneWindow;
+use crate::spatial::{ArcRegion, CapabilityMap};
+
+/// Points of an arc as it is drawn.
+const ARC_POINTS: usize = 60;
+
+/// Regions of the plane `Oyz`, each with its name; over a map of rotational capability where one is given.
+pub fn draw_hana(title: &str, regions: &[(String, &ArcRegion)], map: Option<&CapabilityMap>) -> String {
+    let boxes: Vec<[f64; 4]> =
+        regions.iter().filter_map(|(_, region)| region.bbox).chain(map.map(|map| map.window)).collect();
+    let all = boxes.iter().fold([f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY], |all, b| {
+        [all[0].min(b[0]), all[1].min(b[1]), all[2].max(b[2]), all[3].max(b[3])]
+    });
+    let all = if boxes.is_empty() { [-1.0, -1.0, 1.0, 1.0] } else { all };
+    let room = 0.06 * (all[2] - all[0]).max(all[3] - all[1]);
+    let window = PlaneWindow {
+        low: Vector2::new(all[0] - room, all[1] - room),
+        high: Vector2::new(all[2] + room, all[3] + room),
+    };
+    let mut chart = Chart::new(&window);
+    chart.axes = ["y", "z"];
+    let (mut inside, mut legend) = (Group::new(), Group::new());
+    let (x, mut y) = (chart.beside(), TOP + 12.0);
+    if let Some(map) = map {
+        let highest = map.values.iter().flatten().copied().fold(0.0, f64::max);
+        let cell = [
+            (map.window[2] - map.window[0]) / map.size[0] as f64,
+            (map.window[3] - map.window[1]) / map.size[1] as f64,
+        ];
+        for (index, value) in map.values.iter().enumerate() {
+            let Some(value) = value else { continue };
+            let [py, pz] = map.at(index % map.size[0], index / map.size[0]);
+            let corner = Vector2::new(py - 0.5 * cell[0], pz + 0.5 * cell[1]);
+            let opposite = Vector2::new(py + 0.5 * cell[0], pz - 0.5 * cell[1]);
+            inside = inside.add(tile(&chart, corner, opposite, if highest > 0.0 { value / highest } else { 0.0 }));
+        }
+        legend = scale(legend, x, y, "rotational capability ζ", highest);
+        y += 150.0;
+    }
+    for (k, (name, region)) in regions.iter().enumerate() {
+        let colour = COLOURS[k % COLOURS.len()];
+        for (_, arcs) in &region.loops {
+            let points: Vec<String> = arcs
+                .iter()
+                .flat_map(|arc| arc.points(ARC_POINTS))
+                .map(|[py, pz]| {
+                    let p = Vector2::new(py, pz);
+                    format!("{:.2},{:.2}", chart.x(p), chart.y(p))
+                })
+                .collect();
+            let line = Polyline::new().set("points", points.join(" ")).set("stroke", colour).set("stroke-width", 2);
+            inside = inside.add(if map.is_some() {
+                line.set("fill", "none")
+            } else {
+                line.set("fill", colour).set("fill-opacity", 0.15)
+            });
+        }
+        let sample = Path::new().set("d", format!("M{x} {}h22", y - 4.0)).set("stroke", colour).set("stroke-width", 2);
+        legend = legend.add(sample).add(label(&format!("{name}: area {}", number(region.area)), x + 28.0, y, 11.5));
+        y += 18.0;
+    }
+    let subtitle = "HANA  ·  places of the platform's centre in the plane x = 0";
+    chart.document(if title.is_empty() { "HANA" } else { title }, subtitle, inside, legend)
+}
+
+fn tile(chart: &Chart, corner: Vector2<f64>, opposite: Vector2<f64>, part: f64) -> Rectangle {
+    Rectangle::new()
+        .set("x", format!("{:.2}", chart.x(corner)))
+        .set("y", format!("{:.2}", chart.y(corner)))
+        .set("width", format!("{:.2}", chart.x(opposite) - chart.x(corner) + 0.3))
+        .set("height", format!("{:.2}", chart.y(opposite) - chart.y(corner) + 0.3))
+        .set("fill", colour(part))
+}
+
+/// A scale of colours from 0 to an angle in radians.
+fn scale(legend: Group, x: f64, y: f64, name: &str, highest: f64) -> Group {
+    let mut legend = legend.add(label(name, x, y, 12.0));
+    for step in 0..=10 {
+        let part = f64::from(step) / 10.0;
+        let bar = Rectangle::new()
+            .set("x", x)
+            .set("y", y + 8.0 + 100.0 * (1.0 - part))
+            .set("width", 14)
+            .set("height", 11)
+            .set("fill", colour(part));
+        legend = legend.add(bar);
+    }
+    legend.add(label(&format!("{}°", number(highest.to_degrees())), x + 20.0, y + 18.0, 11.0)).add(label(
+        "0°",
+        x + 20.0,
+        y + 118.0,
+        11.0,
+    ))
+}
+
+/// Side of a section's picture, and the room around it, in pixels.
+const SECTION: f64 = 190.0;
+const ROOM: f64 = 34.0;
+/// Sections side by side.
+const ACROSS: usize = 4;
+
+/// Largest tilts over sections, all on one scale: each a height and its values row by row from the lowest corner.
+pub fn draw_tilt_sections(
+    title: &str,
+    low: [f64; 3],
+    high: [f64; 3],
+    cells: usize,
+    sections: &[(f64, Vec<Option<f64>>)],
+) -> String {
+    let highest = sections.iter().flat_map(|(_, values)| values).flatten().copied().fold(0.0, f64::max);
+    let rows = sections.len().div_ceil(ACROSS);
+    let columns = sections.len().clamp(1, ACROSS);
+    let (width, height) = (columns as f64 * (SECTION + ROOM) + 170.0, 80.0 + rows as f64 * (SECTION + ROOM + 14.0));
+    let mut document = Document::new()
+        .set("width", width)
+        .set("height", height)
+        .set("viewBox", (0, 0, width, height))
+        .set("font-family", "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif")
+        .add(Rectangle::new().set("width", width).set("height", height).set("fill", "#ffffff"))
+        .add(label(if title.is_empty() { "Largest tilt" } else { title }, 20.0, 28.0, 18.0).set("font-weight", "bold"))
+        .add(
+            label(
+                &format!(
+                    "largest tilt for every azimuth  ·  x from {} to {}, y from {} to {}; white: home out of limits",
+                    number(low[0]),
+                    number(high[0]),
+                    number(low[1]),
+                    number(high[1])
+                ),
+                20.0,
+                50.0,
+                12.5,
+            )
+            .set("fill", QUIET),
+        );
+    let cell = SECTION / cells.max(1) as f64;
+    for (k, (z, values)) in sections.iter().enumerate() {
+        let left = 20.0 + (k % ACROSS) as f64 * (SECTION + ROOM);
+        let top = 88.0 + (k / ACROSS) as f64 * (SECTION + ROOM + 14.0);
+        let mut group = Group::new();
+        for (index, value) in values.iter().enumerate() {
+            let Some(value) = value else { continue };
+            let (column, row) = (index % cells, index / cells);
+            let part = if highest > 0.0 { value / highest } else { 0.0 };
+            group = group.add(
+                Rectangle::new()
+                    .set("x", format!("{:.2}", left + column as f64 * cell))
+                    .set("y", format!("{:.2}", top + SECTION - (row + 1) as f64 * cell))
+                    .set("width", format!("{:.2}", cell + 0.3))
+                    .set("height", format!("{:.2}", cell + 0.3))
+                    .set("fill", colour(part)),
+            );
+        }
+        let frame = Rectangle::new().set("x", left).set("y", top).set("width", SECTION).set("height", SECTION);
+        document = document.add(group).add(frame.set("fill", "none").set("stroke", INK)).add(label(
+            &format!("z = {}", number(*z)),
+            left,
+            top - 6.0,
+            12.0,
+        ));
+    }
+    let legend = scale(Group::new(), 20.0 + columns as f64 * (SECTION + ROOM), 100.0, "largest tilt", highest);
+    document.add(legend).to_string()
+}

@@ -1,0 +1,180 @@
+//! `hana` and `tripod` on the command line.
+#![cfg(feature = "cli")]
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn model(name: &str) -> String {
+    format!("{}/examples/{name}", env!("CARGO_MANIFEST_DIR"))
+}
+
+fn run(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_assur")).args(arguments).output().expect("the program starts")
+}
+
+fn json(arguments: &[&str]) -> serde_json::Value {
+    let output = run(arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).expect("one JSON document")
+}
+
+fn text(arguments: &[&str]) -> String {
+    let output = run(arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).expect("text")
+}
+
+/// The one line of an error.
+fn refused(arguments: &[&str]) -> String {
+    let output = run(arguments);
+    assert_eq!(output.status.code(), Some(1), "{arguments:?}");
+    assert!(output.stdout.is_empty());
+    String::from_utf8(output.stderr).expect("text")
+}
+
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    std::fs::create_dir_all(&folder).expect("a folder for files");
+    folder
+}
+
+fn number(value: &serde_json::Value) -> f64 {
+    value.as_f64().expect("a number")
+}
+
+#[test]
+fn hana_answers() {
+    let file = model("hana.toml");
+    let forward = json(&["hana", "forward", &file, "--inputs=1,-0.5,0.3", "--json"]);
+    assert_eq!(
+        (forward["schema"].as_str(), forward["account"]["degree"].as_u64()),
+        (Some("assur/hana-forward/1"), Some(8))
+    );
+    assert_eq!(forward["modes"].as_array().expect("modes").len(), 4);
+    let inverse = json(&["hana", "inverse", &file, "--pose=-2,-12,0", "--json"]);
+    assert_eq!(inverse["modes"].as_array().expect("modes").len(), 8);
+    assert_eq!(inverse["mixed_singularities"]["reached"], "nowhere");
+    let velocity = json(&["hana", "velocity", &file, "--pose=-2,-12,0", "--rates=1,0,0", "--json"]);
+    assert_eq!(velocity["singularity"], "none");
+    assert!(velocity["rates"]["inputs_if_pose"].is_array());
+    let area = |kind: &str| number(&json(&["hana", "workspace", &file, kind, "--json"])["area"]);
+    assert!((area("constant") - 43.453_702_705_955_34).abs() < 1e-9);
+    assert!((area("reachable") - 44.244_825_742_417_67).abs() < 1e-9);
+    let capability = json(&["hana", "capability", &file, "--at=-2,-12", "--strokes=3,4", "--json"]);
+    assert!((number(&capability["zeta"]).to_degrees() - 89.649_985_652).abs() < 1e-6);
+    assert_eq!(capability["against_strokes"].as_array().expect("a curve").len(), 2);
+    for arguments in [
+        vec!["hana", "forward", &file, "--inputs=1,-0.5,0.3"],
+        vec!["hana", "inverse", &file, "--pose=-2,-12,0"],
+        vec!["hana", "velocity", &file, "--pose=-2,-12,90", "--rates=1,0,0", "--accelerations=0,0,1"],
+        vec!["hana", "workspace", &file, "reachable"],
+        vec!["hana", "capability", &file, "--at=-2,-12", "--strokes=3,4"],
+    ] {
+        let shown = text(&arguments);
+        assert!(shown.starts_with("HANA with r = 3") && !shown.contains("NaN"), "{shown}");
+    }
+    let picture = folder("hana").join("map.svg");
+    let picture = picture.to_str().expect("plain");
+    text(&["hana", "capability", &file, "--cells=20", "--svg", picture]);
+    assert!(std::fs::read_to_string(picture).expect("is written").contains("</svg>"));
+}
+
+#[test]
+fn tripod_answers() {
+    let file = model("tripod-cartesian.toml");
+    let inverse = json(&["tripod", "inverse", &file, "--pose=200,260,240,10,5,-3", "--json"]);
+    let inputs: Vec<String> = inverse["inputs"].as_array().expect("six").iter().map(ToString::to_string).collect();
+    let inputs = format!("--inputs={}", inputs.join(","));
+    let forward = json(&["tripod", "forward", &file, &inputs, "--json"]);
+    assert_eq!(forward["account"]["rejected"], 4);
+    let rotation = &inverse["pose"]["rotation"];
+    let same = |mode: &serde_json::Value| {
+        (0..9).all(|k| (number(&mode["pose"]["rotation"][k / 3][k % 3]) - number(&rotation[k / 3][k % 3])).abs() < 1e-9)
+    };
+    assert!(forward["modes"].as_array().expect("modes").iter().any(same));
+    let velocity = json(&["tripod", "velocity", &file, "--pose=200,260,240,10,5,-3", "--rates=1,0,0,0,0,0", "--json"]);
+    assert_eq!(
+        (velocity["singularity"].as_str(), velocity["jacobian"].as_array().map(Vec::len)),
+        (Some("none"), Some(6))
+    );
+    let at = "--at=163.39745962155612,163.39745962155612,163.39745962155612";
+    let tilt = json(&["tripod", "tilt", &file, at, "--json"]);
+    assert!((number(&tilt["tilt"]).to_degrees() - 25.761_932_975_859_754).abs() < 1e-6);
+    assert!(number(&tilt["tilt"]) - number(&tilt["proved_at_least"]) < 1.1e-3);
+    let picture = folder("tripod").join("tilt.svg");
+    let picture = picture.to_str().expect("plain");
+    let map = ["tripod", "tilt", &file, "--low=0,0,0", "--high=400,400,400", "--cells=6", "--svg", picture];
+    assert!(text(&map).contains("of 36"));
+    assert!(std::fs::read_to_string(picture).expect("is written").contains("</svg>"));
+    for arguments in [
+        vec!["tripod", "inverse", &file, "--pose=200,260,240,50,5,-3"],
+        vec!["tripod", "forward", &file, &inputs],
+        vec![
+            "tripod",
+            "velocity",
+            &file,
+            "--pose=200,260,240,10,5,-3",
+            "--rates=1,0,0,0,0,0",
+            "--accelerations=1,0,0,0,0,0",
+        ],
+        vec!["tripod", "tilt", &file, at],
+    ] {
+        let shown = text(&arguments);
+        assert!(shown.starts_with("three-legged robot") && !shown.contains("NaN"), "{shown}");
+    }
+}
+
+#[test]
+fn bad_questions_are_refused_by_name() {
+    let (hana, tripod) = (model("hana.toml"), model("tripod-cartesian.toml"));
+    let with = |file: &str, name: &str, from: &str, to: &str| {
+        let path = folder("bad-spatial").join(name);
+        std::fs::write(&path, std::fs::read_to_string(file).expect("a model").replacen(from, to, 1))
+            .expect("is written");
+        path.to_str().expect("plain").to_owned()
+    };
+    for (name, from, to, message) in [
+        ("zero.toml", "L = 15.0", "L = 0", "L: 0 must be > 0"),
+        (
+            "stroke.toml",
+            "[-3.0, 3.0]",
+            "[3.0, -3.0]",
+            "strokes, leg 1: [3, -3] must run from the lower to the higher end",
+        ),
+        ("missing.toml", "L3 = 15.0", "", "L3: missing; must be a length"),
+        ("three.toml", "[-3.0, 3.0]", "[1, 2, 3]", "strokes:"),
+    ] {
+        let said = refused(&["hana", "forward", &with(&hana, name, from, to), "--inputs=0,0,0"]);
+        assert!(said.contains(message) && said.contains(name), "{said}");
+    }
+    assert!(refused(&["hana", "forward", &hana, "--inputs=0,0"]).contains("inputs: 2 given, must be 3"));
+    assert!(
+        refused(&["hana", "velocity", &hana, "--pose=20,0,0"]).contains("leg 1: does not reach the pose, it misses by")
+    );
+    assert!(refused(&["hana", "forward", &tripod, "--inputs=0,0,0"]).contains("`assur tripod`"));
+    assert!(refused(&["forward", &hana, "--inputs=0,0,0"]).contains("`assur hana`"));
+    assert!(refused(&["hana", "workspace", &hana, "reachable", "--mode=+-+"]).contains("same side"));
+    for (name, from, to, message) in [
+        ("parallel.toml", "w = [0.0, 0.0, 1.0]", "w = [1.0, 0.0, 0.0]", "leg 1: the base axis w must be square"),
+        ("rail.toml", "Db = [0.0, 720.0, 0.0]", "Db = [0.0, 600.0, 0.0]", "leg 1: the rails coincide"),
+        ("length.toml", "v = [0.0, 1.0, 0.0]", "v = [0.0, 0.0, 0.0]", "leg 1: v has no length"),
+        ("reversed.toml", "[0.0, 500.0]", "[500.0, 0.0]", "strokes, slider 1: [500, 0] must run"),
+    ] {
+        let said = refused(&["tripod", "forward", &with(&tripod, name, from, to), "--inputs=0,0,0,0,0,0"]);
+        assert!(said.contains(message) && said.contains(name), "{said}");
+    }
+    let along = with(&tripod, "along.toml", "v = [0.0, 1.0, 0.0]", "v = [1.0, 0.0, 0.0]");
+    assert!(refused(&["tripod", "inverse", &along, "--pose=0,0,0,0,0,0"]).contains("parallel to the rails"));
+    assert!(refused(&["tripod", "inverse", &tripod, "--pose=0,0"]).contains("pose: 2 given, must be 6"));
+}
+
+#[test]
+fn models_to_start_from_are_sound() {
+    for (name, command) in [("hana", "hana"), ("tripod", "tripod")] {
+        let path = folder("new-spatial").join(format!("{name}.toml"));
+        let path = path.to_str().expect("plain");
+        assert!(run(&["new", name, "--output", path]).status.success());
+        let inputs = if name == "hana" { "--inputs=0,0,0" } else { "--inputs=0,0,0,0,0,0" };
+        assert!(run(&[command, "forward", path, inputs]).status.success());
+    }
+}
