@@ -381,9 +381,9 @@ fn hana_velocity(file: &Path, pose: &[f64], mode: &str, asked: [&[f64]; 2], json
     line(&mut text, format_args!("A (y', z', phi') + B (z1', z2', z3') = 0, angles in radians"));
     let mut rows = table(&["leg", "A: y'", "z'", "phi'", "B (diagonal)"]);
     for k in 0..3 {
-        let row = velocity.pose_matrix.row(k);
-        let entries = row.iter().copied().chain([velocity.input_matrix[(k, k)]]);
-        rows.add_row(std::iter::once((k + 1).to_string()).chain(entries.map(|value| digits(value, SIDE_DIGITS))));
+        let (a, b) = (&velocity.pose_matrix, &velocity.input_matrix);
+        let entries = [a[(k, 0)], a[(k, 1)], a[(k, 2)], b[(k, k)]].map(|value| digits(value, SIDE_DIGITS));
+        rows.add_row(std::iter::once((k + 1).to_string()).chain(entries));
     }
     line(&mut text, format_args!("{rows}"));
     let singularity = velocity.singularity();
