@@ -502,7 +502,7 @@ fn hana_capability(
     match best {
         Some(best) => {
             let how = if best.attained { "had" } else { "approached from below" };
-            line(&mut text, format_args!("largest {} , {how} at ({})", angle(best.zeta), numbers(&best.at)));
+            line(&mut text, format_args!("largest {}, {how} at ({})", angle(best.zeta), numbers(&best.at)));
         }
         None => line(&mut text, format_args!("the workspace of phi = 0 is empty")),
     }
