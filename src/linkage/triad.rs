@@ -224,7 +224,7 @@ impl Triad {
         (!translating).then(|| self.degree() / 2)
     }
 
-    /// How many assemblies there can be: the number of finite complex solutions of a generic triad of this name (see [`triad_degree`]).
+    /// How many assemblies there can be: the number of finite complex solutions of a generic triad of this name (see [`super::triad_degree`]).
     pub fn degree(&self) -> usize {
         let mut counts = [0; 4];
         for leg in self.legs() {
