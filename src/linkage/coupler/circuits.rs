@@ -167,7 +167,7 @@ impl CouplerCurve {
     /// ```
     /// use assur::linkage::{CouplerCurve, InputRange};
     /// // A non-Grashof four-bar has one circuit, between limits.
-    /// let curve = CouplerCurve::four_bar([[0.0, 0.0], [4.0, 0.0]], [[0.0, 1.0], [2.0, 1.0]], [3.0, 3.5])?;
+    /// let curve = CouplerCurve::four_bar([[0.0, 0.0], [4.0, 0.0]], [[0.0, 1.0], [3.0, 1.0]], [3.0, 3.5])?;
     /// let circuits = curve.circuits();
     /// assert_eq!(circuits.len(), 1);
     /// assert!(matches!(circuits[0].input, InputRange::Between { .. }));

@@ -91,8 +91,8 @@ impl CouplerCurve {
     /// Every intersection with a line, a circle or another coupler curve, real and complex.
     ///
     /// **Accuracy:** simple ones to some 1e-13 of the size; numerical, not proved, but held against an exact count. `None` for a direction
-    /// that is zero, a radius that is not positive or numbers that are not finite. **Cost:** 20 us for line and circle, 0.4 ms for another
-    /// four-bar.
+    /// that is zero, a radius that is not positive or numbers that are not finite. **Cost:** 2.5 ms for line and circle, whose polynomial
+    /// is expanded over the rationals; 0.7 ms for another four-bar.
     ///
     /// ```
     /// use assur::linkage::{CouplerCurve, Partner};
