@@ -123,7 +123,7 @@ pub use spatial::{
     HanaSingularity, HanaUnreachable, HanaVelocity, HanaViolation, HanaWay, HanaWays, HanaWorkspaceError, Hexapteron,
     MixedReach, MixedSingularity, Orientations, PlaneConditions, Quadrupteron, SpatialError, Tilt, TiltLimit, Tripod,
     TripodAssemblies, TripodAssembly, TripodError, TripodLeg, TripodPose, TripodReach, TripodSingularity, TripodStatus,
-    TripodVelocity, WorkspaceArc,
+    TripodVelocity, Tripteron, WorkspaceArc,
 };
 
 /// The README's code runs as a test.

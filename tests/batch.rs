@@ -267,3 +267,57 @@ fn angles_are_in_the_unit_of_the_model() {
     let found = fields.chunks(3).any(|p| (p[0] - 5.5).abs() + (p[1] - 4.0).abs() + (p[2] - 17.0).abs() < 1e-8);
     assert!(found, "{fields:?}");
 }
+
+#[test]
+fn what_is_read_is_not_written_over() {
+    let folder = folder("same");
+    let input = folder.join("in.csv");
+    fs::write(&input, inputs(5)).expect("written");
+    let refused = run(&["forward", MODEL, "--batch", shown(&input), "--output", shown(&input)]);
+    assert_eq!(refused.status.code(), Some(1));
+    assert!(text(&refused.stderr).contains("must not be written over"), "{}", text(&refused.stderr));
+    assert_eq!(fs::read_to_string(&input).expect("still there"), inputs(5));
+    assert_eq!(fs::read_dir(&folder).expect("a folder").count(), 1);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_is_followed() {
+    let folder = folder("link");
+    let (input, target, link) = (folder.join("in.csv"), folder.join("target.csv"), folder.join("link.csv"));
+    fs::write(&input, inputs(5)).expect("written");
+    fs::write(&target, "old").expect("written");
+    std::os::unix::fs::symlink(&target, &link).expect("a link");
+    assert!(run(&["forward", MODEL, "--batch", shown(&input), "--output", shown(&link)]).status.success());
+    assert!(fs::symlink_metadata(&link).expect("there").is_symlink());
+    assert_eq!(fs::read_to_string(&target).expect("rows").lines().count(), 6);
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_ends_a_run_that_waits_for_input() {
+    let folder = folder("interrupt");
+    let output = folder.join("out.csv");
+    let mut child = program()
+        .args(["forward", MODEL, "--batch", "-", "--output", shown(&output)])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("starts");
+    let mut pipe = child.stdin.take().expect("piped");
+    pipe.write_all(b"q1,q2,q3\n14.98,15.38,12\n").expect("written");
+    pipe.flush().expect("written");
+    std::thread::sleep(Duration::from_millis(300));
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("kill").success());
+    let begun = Instant::now();
+    let ended = loop {
+        if let Some(status) = child.try_wait().expect("a child") {
+            break status;
+        }
+        assert!(begun.elapsed() < Duration::from_secs(20), "the run goes on");
+        std::thread::sleep(Duration::from_millis(10));
+    };
+    drop(pipe);
+    assert!(!ended.success() && !output.exists());
+}
