@@ -72,7 +72,7 @@ impl Triad {
     ///
     /// **Shape**: at most six modes, sorted by `phi`, then `x`, then `y`. **Units and frame**: as [`Triad::assemble`]. **Accuracy**: at least nine digits of the
     /// distance from the group, as a rule fifteen. **Proof**: the number of modes is exact, by a bound on all rounding errors or by integers.
-    /// **Cost**: below a microsecond, a millisecond where the bound does not decide (about one random triad in a hundred thousand; `benches/real_modes.rs`).
+    /// **Cost**: about a microsecond, a millisecond where the bound does not decide (about one random triad in a hundred thousand; `benches/real_modes.rs`).
     ///
     /// ```
     /// use assur::{Dyad, ModesRoute, Triad};

@@ -134,7 +134,7 @@ fn none(status: Status) -> RowModes {
 impl Triad {
     /// Every real assembly mode of many triads, on all threads.
     ///
-    /// **Shape, units, frame, accuracy, proof**: as [`Triad::real_modes`], row by row; the number of threads changes nothing. **Cost**: half a microsecond a triad and thread.
+    /// **Shape, units, frame, accuracy, proof**: as [`Triad::real_modes`], row by row; the number of threads changes nothing. **Cost**: a microsecond a triad and thread.
     ///
     /// ```
     /// use assur::{Dyad, Triad};
