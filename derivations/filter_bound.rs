@@ -261,7 +261,7 @@ pose the derivatives of equation k change by no more than L_k r, L_k the sum of 
 Krawczyk's operator takes the box into the one of radius eta + (kappa + lambda r) r. Where that is smaller than r in each coordinate, the box holds exactly one
 assembly, and so does the smaller one. Roundings of F and J are counted as in step 3, with sizes for all poses at once. The direction (c, s) and the angle phi were
 computed side by side: the cell's middle (4 u), half the arc tangent's series (8 u), their sum and a whole turn (8 u), the turn of the direction (7 u), and for each of three
-Newton steps 4 u for both, turns being at most 1e-5, whose cube is below u: below 64 u, which the box of phi is wider. Brought to modulus 1 by 3/2 - (c² + s²)/2, the
+Newton steps 4 u for both, turns being at most 1e-5, by a sixth of whose cube, below 2 u, angle and direction part: below 64 u, which the box of phi is wider. Brought to modulus 1 by 3/2 - (c² + s²)/2, the
 direction has it to 3 u. Checked: the boxes of 200 random triads meet one exact box each."
         .to_string()
 }

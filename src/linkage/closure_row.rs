@@ -149,7 +149,7 @@ pub(super) fn proved_radii(
 }
 
 /// Covers the rounding of the bounds themselves: sums of a dozen positive terms.
-const MARGIN: f64 = 1.0 + 1e-12;
+pub(super) const MARGIN: f64 = 1.0 + 1e-12;
 
 /// A bound on the sum of moduli of all second derivatives within 1 of a place at most `u` from the origin.
 #[inline(always)]

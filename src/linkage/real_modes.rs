@@ -10,7 +10,7 @@
 use std::sync::LazyLock;
 
 use super::assemblies::{AssemblyMode, Status};
-use super::closure_row::{WIDTH, closure_rows, newton_step, proved_radii};
+use super::closure_row::{MARGIN, WIDTH, closure_rows, newton_step, proved_radii};
 use super::group::{Dyad, Offset, Pose, Triad};
 use super::loop_box::{IntervalTriad, PoseIntervals};
 use super::triad::{LegNumbers, Row, Rows, leg_row, rows_consistency};
@@ -71,7 +71,8 @@ impl Triad {
     /// Every real assembly mode, fast: the same modes as [`Triad::assemble`] lists.
     ///
     /// **Shape**: at most six modes, sorted by `phi`, then `x`, then `y`. **Units and frame**: as [`Triad::assemble`]. **Accuracy**: at least nine digits of the
-    /// distance from the group, as a rule fifteen. **Proof**: the number of modes is exact, by a bound on all rounding errors or by integers.
+    /// distance from the group, as a rule fifteen. **Proof**: the number of roots of `T` is exact, by a bound on all rounding errors or by integers;
+    /// poses above them are measured (closure, regularity, their part of the circle), and [`Triad::prove`] boxes them.
     /// **Cost**: about a microsecond, a millisecond where the bound does not decide (about one random triad in a hundred thousand; `benches/real_modes.rs`).
     ///
     /// ```
@@ -141,7 +142,7 @@ impl pulp::NullaryFnOnce for Fast<'_> {
 /// Newton steps on the loop equations, and the step (radians, and lengths over the group's) whose square is below rounding.
 const STEPS: usize = 3;
 const LAST_STEP: f64 = 1e-8;
-/// The largest turn of a Newton step in radians: its cube, by which angle and direction part, is below rounding.
+/// The largest turn of a Newton step in radians: angle and direction part by a sixth of its cube, below two units of rounding.
 const LARGEST_TURN: f64 = 1e-5;
 /// Largest closure error of a pose that needs no second look, over the group's size.
 const CLOSURE: f64 = 1e-13;
@@ -325,7 +326,7 @@ impl Local {
                 let u = [u.re.0[i], u.im.0[i]].map(|u| u.abs() * self.unit);
                 // Six roundings in x and y, and the direction's own.
                 let shift = |radius: f64, a0: f64, u: f64| {
-                    (radius * self.unit + b0 * (turn + 4.0 * UNIT) + 6.0 * UNIT * (a0.abs() + u + b0)) * (1.0 + 1e-12)
+                    (radius * self.unit + b0 * (turn + 4.0 * UNIT) + 6.0 * UNIT * (a0.abs() + u + b0)) * MARGIN
                 };
                 let radii = [shift(ux, self.a0[0], u[0]), shift(uy, self.a0[1], u[1]), turn + ANGLE_ERROR];
                 let around = |k: usize, x: f64| Interval::around(x, radii[k]);

@@ -23,7 +23,7 @@ const SHARE: usize = 1024;
 pub struct ModesBatch {
     poses: Vec<f64>,
     counts: Vec<u8>,
-    statuses: Vec<Status>,
+    statuses: Vec<Option<Status>>,
     errors: Vec<(usize, LockError)>,
 }
 
@@ -32,7 +32,7 @@ impl ModesBatch {
         let mut out = Self {
             poses: vec![0.0; WIDTH * rows],
             counts: vec![0; rows],
-            statuses: vec![Status::Complete; rows],
+            statuses: vec![None; rows],
             errors: Vec::new(),
         };
         let shares = out
@@ -47,7 +47,7 @@ impl ModesBatch {
             for (row, ((poses, count), status)) in (SHARE * share..).zip(rows) {
                 match solve(row) {
                     Ok(found) => {
-                        *status = found.status;
+                        *status = Some(found.status);
                         *count = found.count as u8;
                         for (place, pose) in poses.chunks_exact_mut(3).zip(found.poses()) {
                             place.copy_from_slice(&[pose.x, pose.y, pose.phi]);
@@ -78,13 +78,13 @@ impl ModesBatch {
         &self.poses
     }
 
-    /// How many modes each row has; 0 where it has an error.
+    /// How many modes each row has; 0 also where it has an error: then its status is `None`.
     pub fn counts(&self) -> &[u8] {
         &self.counts
     }
 
-    /// Whether each row's modes are all there are, or stand beside a curve of poses.
-    pub fn statuses(&self) -> &[Status] {
+    /// Whether each row's modes are all there are, or stand beside a curve of poses; `None` for a row with an error, of whose modes nothing is known.
+    pub fn statuses(&self) -> &[Option<Status>] {
         &self.statuses
     }
 
@@ -172,6 +172,7 @@ impl Manipulator {
     /// ])?;
     /// let batch = robot.forward_batch(&[14.98, 15.38, 12.0, 14.98, f64::NAN, 12.0]);
     /// assert_eq!(batch.counts(), [6, 0]);
+    /// assert!(batch.statuses()[0].is_some() && batch.statuses()[1].is_none());
     /// assert_eq!(batch.errors()[0].0, 1);
     /// assert!(batch.errors()[0].1.to_string().contains("leg 2"));
     /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -82,6 +82,10 @@ impl SolvedBlock {
         self.places.iter().map(|&row| u64::from(self.batch.counts()[row])).sum()
     }
 
+    fn status(&self, row: usize) -> Status {
+        self.batch.statuses()[row].expect("rows with an error are among the rejects")
+    }
+
     fn inputs(&self, row: usize) -> &[f64] {
         &self.inputs[self.width * row..self.width * (row + 1)]
     }
@@ -112,7 +116,7 @@ impl SolvedBlock {
             let _ = write!(out, "{number}");
             self.inputs(row).iter().for_each(|q| _ = write!(out, ",{q}"));
             let count = usize::from(self.batch.counts()[row]);
-            let _ = write!(out, ",{},{count}", status_name(self.batch.statuses()[row]));
+            let _ = write!(out, ",{},{count}", status_name(self.status(row)));
             self.poses(row).flatten().for_each(|x| _ = write!(out, ",{x}"));
             out.extend(std::iter::repeat_n(b',', 3 * (MOST_MODES - count)));
             out.push(b'\n');
@@ -125,7 +129,7 @@ impl SolvedBlock {
         for (number, &row) in self.numbers.iter().zip(&self.places) {
             let _ = write!(out, "{{\"row\":{number}");
             self.inputs(row).iter().zip(1..).for_each(|(q, k)| _ = write!(out, ",\"q{k}\":{q}"));
-            let status = status_name(self.batch.statuses()[row]);
+            let status = status_name(self.status(row));
             let _ = write!(out, ",\"status\":\"{status}\",\"count\":{}", self.batch.counts()[row]);
             for ([x, y, phi], k) in self.poses(row).zip(1..) {
                 let _ = write!(out, ",\"x{k}\":{x},\"y{k}\":{y},\"phi{k}\":{phi}");
@@ -160,7 +164,7 @@ impl SolvedBlock {
             column.close()?;
         }
         let names = [Status::Complete, Status::SelfMotion, Status::Undecided].map(|s| ByteArray::from(status_name(s)));
-        let statuses: Vec<ByteArray> = rows().map(|row| names[self.batch.statuses()[row] as usize].clone()).collect();
+        let statuses: Vec<ByteArray> = rows().map(|row| names[self.status(row) as usize].clone()).collect();
         let mut column = group.next_column()?.expect("status");
         column.typed::<ByteArrayType>().write_batch(&statuses, None, None)?;
         column.close()?;
