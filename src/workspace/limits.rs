@@ -174,6 +174,16 @@ pub enum LimitCause {
     Shortest,
 }
 
+impl LimitCause {
+    /// The joint that is at an end of its range, from 0; `None` where modes merge.
+    pub fn joint(&self) -> Option<usize> {
+        match *self {
+            Self::JointMin { joint, .. } | Self::JointMax { joint, .. } => Some(joint),
+            _ => None,
+        }
+    }
+}
+
 /// A limit that is active on a piece of boundary.
 ///
 /// ```

@@ -20,12 +20,14 @@
 //! the maximal, inclusive, total and dextrous workspaces are mended here (derivations/leg_reach.rs).
 
 mod boundary;
+mod folds;
 mod leg;
 mod limits;
 mod reach;
 mod region;
 
-pub use boundary::{ArcCurve, BoundaryArc, CouplerArc};
+pub use boundary::{ArcCurve, BoundaryArc};
+pub use folds::CouplerArc;
 pub use limits::{ActiveLimit, Limit, LimitCause, WorkspaceError, WorkspaceModes};
 pub use reach::{Membership, Reach};
 pub use region::{Isolated, Loop, Region, Workspace, WorkspaceKind};
