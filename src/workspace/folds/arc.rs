@@ -58,6 +58,11 @@ impl CouplerArc {
         (spot.place.c, spot.velocity * (self.to - self.from))
     }
 
+    /// The place at a part of the arc, from 0 to 1.
+    pub fn point_at(&self, part: f64) -> [f64; 2] {
+        self.at(part).0.into()
+    }
+
     /// The orientation at a part of the arc, from 0 to 1; radians.
     pub fn phi_at(&self, part: f64) -> f64 {
         self.curve.phi(self.branch, self.parameter(part))

@@ -187,8 +187,14 @@ impl Coupled {
                 let within = if is_turn(1) { p * q * under_high() } else { (r + s) * (r + s) - d2 };
                 let beyond = if is_turn(0) { p * q * over_low() } else { d2 - (r - s) * (r - s) };
                 let root = (within.max(0.0) * beyond.max(0.0)).sqrt();
-                let along = 0.5 * ((r - s) * (r + s) / d2 + 1.0);
-                let c = a - product(turn, b) + d * along + quarter(d) * (sigma * 0.5 * root / d2);
+                let c = if p == q && r == s {
+                    // A parallelogram's centres meet at psi = 0, but the way between them keeps a direction.
+                    let way = product(base, Point::new(half, -side * (0.5 * psi).cos()));
+                    a - product(turn, b) + way * (q * half) + quarter(way) * (sigma * 0.5 * within.max(0.0).sqrt())
+                } else {
+                    let along = 0.5 * ((r - s) * (r + s) / d2 + 1.0);
+                    a - product(turn, b) + d * along + quarter(d) * (sigma * 0.5 * root / d2)
+                };
                 // Both normals point away from their centres.
                 (c, sigma * 0.5 * root / (r * s))
             }
@@ -225,8 +231,8 @@ impl Coupled {
         Spot { place, phi, velocity }
     }
 
-    /// The branch and parameter of a pose on the curve.
-    pub(crate) fn locate(&self, place: &Place, phi: f64) -> (Branch, f64) {
+    /// The branch and parameter of a pose on the curve, and how far the place there is from the pose's: poses with both carriers one are on neither branch.
+    pub(crate) fn locate(&self, place: &Place, phi: f64) -> (Branch, f64, f64) {
         let psi = principal(phi - self.axis);
         let half = psi >= 0.0;
         let side = match self.law {
@@ -250,16 +256,26 @@ impl Coupled {
             [false, true] => fraction / (1.0 + (1.0 - fraction).sqrt()),
             [false, false] => fraction,
         };
-        // The orientation says little of the place near a turn; the place itself does.
-        for _ in 0..LOCATING {
+        // The orientation says little of the place near a turn; the place itself does. At a cusp it is the other way round.
+        let miss = |t: f64| {
             let spot = self.at(branch, t.clamp(EDGE, 1.0 - EDGE));
-            let (miss, square) = (place.c - spot.place.c, spot.velocity.norm_squared());
-            if square == 0.0 || !square.is_finite() {
+            (place.c - spot.place.c, spot.velocity)
+        };
+        let (mut off, mut velocity) = miss(t);
+        for _ in 0..LOCATING {
+            let next = (t.clamp(EDGE, 1.0 - EDGE) + off.dot(&velocity) / velocity.norm_squared()).clamp(0.0, 1.0);
+            if !next.is_finite() {
                 break;
             }
-            t = (t.clamp(EDGE, 1.0 - EDGE) + miss.dot(&spot.velocity) / square).clamp(0.0, 1.0);
+            let nearer = miss(next);
+            // Not written as `>=`, so that what is not a number is no improvement either.
+            if !(nearer.0.norm() < off.norm()) {
+                break;
+            }
+            t = next;
+            (off, velocity) = nearer;
         }
-        (branch, t)
+        (branch, t, off.norm())
     }
 }
 
@@ -436,7 +452,7 @@ mod tests {
                 let difference = (curve.at(branch, t + step).place.c - curve.at(branch, t - step).place.c) / (2.0 * step);
                 let miss = (difference - spot.velocity).norm();
                 prop_assert!(miss < 1e-4 * (1.0 + spot.velocity.norm()), "{difference:?} {:?}", spot.velocity);
-                let (found, at) = curve.locate(&spot.place, spot.phi);
+                let (found, at, _) = curve.locate(&spot.place, spot.phi);
                 prop_assert_eq!(found, branch);
                 prop_assert!((at - t).abs() < 1e-9);
             }

@@ -32,6 +32,8 @@ const ALLOWANCE: f64 = 1.5;
 const DEPTH: usize = 12;
 /// Pairs of pieces looked at for one pair of chords before they count as overlapping (a crossing takes some ten, a touch some hundred).
 const PATIENCE: usize = 1200;
+/// Two curves touch where they come nearer than this share of the length over which they stay together: the square of a small bend.
+const CLOSE: f64 = 1e-4;
 /// A crossing is sought by Newton's method where the angle between chords exceeds their own bends by this factor.
 const STEEP: f64 = 3.0;
 /// Newton steps: quadratic from a chord's crossing.
@@ -166,7 +168,13 @@ pub(super) fn meet(
         let (la, lb) = (a.length(), b.length());
         if la.max(lb) <= tol {
             let at = 0.5 * (a.from + a.to);
-            out.crossings.push([at, nearest(other, one(at).0, b.from, b.to)]);
+            // The place may be a little beyond this chord.
+            let room = b.to - b.from;
+            let (low, high) = (second.from.min(second.to), second.from.max(second.to));
+            let near = nearest(other, one(at).0, (b.from - room).clamp(low, high), (b.to + room).clamp(low, high));
+            if (one(at).0 - other(near).0).norm() <= CLOSE * tol {
+                out.crossings.push([at, near]);
+            }
             continue;
         }
         if la > 0.0 && lb > 0.0 {

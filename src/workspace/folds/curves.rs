@@ -20,6 +20,9 @@ pub(super) const TOUCH: f64 = 1e-13;
 /// A pivot nearer to the reference point than this share of the mechanism's length is at it: its limits then do not depend on the orientation, and the
 /// boundary moves by no more than this.
 const AT_PIVOT: f64 = 1e-12;
+/// A pose further from a coupled curve than this share of the mechanism's length is not on it, but on a carrier that both limits have in common (error
+/// bound: a pose's own roundings, some thousand).
+const ON_CURVE: f64 = 1e-10;
 /// Straight candidates are followed this many times the mechanism's length; bounded workspaces end before.
 const FAR: f64 = 8.0;
 
@@ -81,6 +84,7 @@ pub(super) struct Curves {
     first_branch: Vec<usize>,
     tol: f64,
     far: f64,
+    size: f64,
 }
 
 impl Curves {
@@ -95,6 +99,7 @@ impl Curves {
             first_branch: Vec::new(),
             tol: TOUCH * size,
             far: FAR * size,
+            size,
         };
         let stationary = all.add_stationary();
         let ends = range.map(|range| all.add_phi_ends(range));
@@ -285,7 +290,11 @@ impl Curves {
         let [one, other] = if pair[0] < pair[1] { pair } else { [pair[1], pair[0]] };
         let Ok(found) = book.coupled.binary_search_by(|entry| entry.1.cmp(&[one, other])) else { return };
         let coupled = book.coupled[found].0;
-        let (branch, t) = self.coupled[coupled].0.locate(place, phi);
+        let (branch, t, off) = self.coupled[coupled].0.locate(place, phi);
+        // Not a number, or not on the branch.
+        if !(off <= ON_CURVE * self.size) {
+            return;
+        }
         let branches = self.coupled[coupled].0.branches();
         if let Some(k) = branches.into_iter().position(|own| own == branch) {
             self.mark(self.first_branch[coupled] + k, t, vertex);

@@ -23,8 +23,9 @@ type Point = Vector2<f64>;
 
 /// A limit missed by less than this share of the mechanism's length is met by a pose that lies on it (error bound: a pose's own roundings, some thousand at most).
 const VALID: f64 = 1e-11;
-/// Both sides of a piece are asked so far beside it, as a share of the mechanism's length: well above roundings, well below what must be told apart.
-const BESIDE: f64 = 1e-10;
+/// Both sides of a piece are asked so far beside it, as a share of the mechanism's length: first just above roundings, since what bounds may be no further from what does
+/// not, then further where roundings hide it.
+const BESIDE: [f64; 4] = [1e-12, 1e-11, 1e-10, 1e-9];
 /// Vertices nearer than this share of the mechanism's length are one.
 const SAME_VERTEX: f64 = 1e-10;
 /// Curves that stay together over this share of the mechanism's length, or less, touch: between them is less than the square of it.
@@ -175,9 +176,9 @@ impl<'a> Tracer<'a> {
     }
 
     /// A curve's pieces between its marks.
-    fn pieces(&mut self, curve: usize) -> Vec<Piece> {
+    pub(super) fn pieces(&mut self, curve: usize) -> Vec<Piece> {
         let ([low, high], closed) = self.curves.span(curve);
-        let mut marks = std::mem::take(&mut self.curves.curves[curve].marks);
+        let mut marks = self.curves.curves[curve].marks.clone();
         if !closed {
             for t in [low, high] {
                 if !marks.iter().any(|mark| mark.0 == t) {
@@ -310,6 +311,7 @@ impl<'a> Tracer<'a> {
         let boxes: Vec<[Point; 2]> = divided.iter().map(|chords| Chord::around(chords)).collect();
         let mut order: Vec<usize> = (0..folds.len()).collect();
         order.sort_by(|&i, &j| boxes[i][0].x.total_cmp(&boxes[j][0].x));
+        let mut overlaps: Vec<[usize; 2]> = Vec::new();
         for (k, &i) in order.iter().enumerate() {
             for &j in &order[k..] {
                 if boxes[j][0].x > boxes[i][1].x {
@@ -366,20 +368,24 @@ impl<'a> Tracer<'a> {
                     marks[j].push((t, vertices.len() - 1));
                 }
                 if common.overlap {
-                    for (own, to) in [(i, j), (j, i)] {
-                        for vertex in [folds[own].start, folds[own].end] {
-                            let piece = &folds[to];
-                            if [piece.start, piece.end].contains(&vertex) {
-                                continue;
-                            }
-                            let eval = |t: f64| self.eval(piece.curve, t);
-                            for chord in &divided[to] {
-                                let t = nearest(&eval, vertices[vertex], chord.from, chord.to);
-                                if (eval(t).0 - vertices[vertex]).norm() <= near {
-                                    marks[to].push((t, vertex));
-                                    break;
-                                }
-                            }
+                    overlaps.push([i, j]);
+                }
+            }
+        }
+        // Curves that run along each other are divided at the same places: twice, as the second may bring places to a third.
+        for _ in 0..2 {
+            for &[i, j] in &overlaps {
+                for (own, to) in [(i, j), (j, i)] {
+                    let piece = &folds[to];
+                    let eval = |t: f64| self.eval(piece.curve, t);
+                    for (_, vertex) in marks[own].clone() {
+                        if marks[to].iter().any(|mark| mark.1 == vertex) {
+                            continue;
+                        }
+                        let at = vertices[vertex];
+                        let onto = divided[to].iter().map(|chord| nearest(&eval, at, chord.from, chord.to));
+                        if let Some(t) = onto.into_iter().find(|&t| (eval(t).0 - at).norm() <= 10.0 * near) {
+                            marks[to].push((t, vertex));
                         }
                     }
                 }
@@ -422,7 +428,7 @@ impl<'a> Tracer<'a> {
             let Some(look) = self.look(piece, part) else { continue };
             let t = piece.part(part);
             let left = quarter(self.eval(piece.curve, t).1);
-            for distance in [BESIDE, 10.0 * BESIDE, 0.1 * BESIDE] {
+            for distance in BESIDE {
                 let aside = look.outward * (distance * self.size);
                 let (inside, outside) = (reached(look.at - aside), reached(look.at + aside));
                 let on_left = left.dot(&look.outward) < 0.0;
@@ -446,6 +452,7 @@ impl<'a> Tracer<'a> {
     pub(super) fn outline(&self, reached: &Reached<'_>) -> Outline {
         let mut out = Outline::default();
         let mut boundary: Vec<(Piece, bool, Look)> = Vec::new();
+        let mut undecided: Vec<(Piece, bool, Look)> = Vec::new();
         for piece in &self.folds {
             let (standing, look) = self.standing(piece, reached);
             let Some(look) = look else { continue };
@@ -454,10 +461,13 @@ impl<'a> Tracer<'a> {
                 Standing::Separating(on_left) => out.separating.push(self.arc(piece, on_left, &look)),
                 Standing::Isolated => out.isolated.push(self.arc(piece, true, &look)),
                 Standing::Nothing => {}
-                Standing::Undecided => out.undecided.push(look.at.into()),
+                Standing::Undecided => undecided.push((*piece, true, look)),
             }
         }
         self.drop_doubles(&mut boundary);
+        // What runs along a boundary adds nothing to it.
+        undecided.retain(|open| !boundary.iter().any(|other| self.along(&open.0, &other.0)));
+        out.undecided = undecided.iter().map(|open| open.2.at.into()).collect();
         join(&mut boundary);
         for (piece, on_left, look) in &boundary {
             let ends = if *on_left { [piece.start, piece.end] } else { [piece.end, piece.start] };
@@ -468,27 +478,30 @@ impl<'a> Tracer<'a> {
 
     /// Keeps one of the pieces that run along each other.
     fn drop_doubles(&self, pieces: &mut Vec<(Piece, bool, Look)>) {
-        let near = 10.0 * SAME_VERTEX * self.size;
+        let ends = |(piece, on_left, _): &(Piece, bool, Look)| {
+            if *on_left { [piece.start, piece.end] } else { [piece.end, piece.start] }
+        };
         let mut kept: Vec<(Piece, bool, Look)> = Vec::new();
         for candidate in pieces.drain(..) {
-            let ends = |(piece, on_left, _): &(Piece, bool, Look)| {
-                if *on_left { [piece.start, piece.end] } else { [piece.end, piece.start] }
-            };
-            let middle = self.eval(candidate.0.curve, candidate.0.part(0.5)).0;
-            let double = kept.iter().any(|other| {
-                ends(other) == ends(&candidate) && {
-                    let piece = &other.0;
-                    let eval = |t: f64| self.eval(piece.curve, t);
-                    chords(&eval, piece.from, piece.to)
-                        .iter()
-                        .any(|chord| (eval(nearest(&eval, middle, chord.from, chord.to)).0 - middle).norm() <= near)
-                }
-            });
-            if !double {
+            if !kept.iter().any(|other| ends(other) == ends(&candidate) && self.along(&candidate.0, &other.0)) {
                 kept.push(candidate);
             }
         }
         *pieces = kept;
+    }
+
+    /// Whether a piece runs along another between the same vertices.
+    fn along(&self, piece: &Piece, other: &Piece) -> bool {
+        let same = [piece.start, piece.end] == [other.start, other.end];
+        if !same && [piece.end, piece.start] != [other.start, other.end] {
+            return false;
+        }
+        let near = 10.0 * SAME_VERTEX * self.size;
+        let middle = self.eval(piece.curve, piece.part(0.5)).0;
+        let eval = |t: f64| self.eval(other.curve, t);
+        chords(&eval, other.from, other.to)
+            .iter()
+            .any(|chord| (eval(nearest(&eval, middle, chord.from, chord.to)).0 - middle).norm() <= near)
     }
 
     /// A piece as a boundary arc, run so that the inside is on its left.
@@ -568,7 +581,7 @@ fn sense_on(limit: &Limit, on: &Carrier) -> f64 {
 }
 
 /// Second derivative by the orientation of a limit's value where the first vanishes, up to a positive factor.
-fn bend(form: &Form, place: &Place) -> f64 {
+pub(super) fn bend(form: &Form, place: &Place) -> f64 {
     match *form {
         // |B - a|² = d² + b² + 2 (C - a)·R b.
         Form::Circle { a, b, .. } => -(place.c - a).dot(&product(place.turn, b)),
