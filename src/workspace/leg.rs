@@ -23,10 +23,18 @@ use crate::plane::{Sector, conjugate, direction, product};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Chain {
     /// The slider's axis passes the base pivot at this signed distance: the platform pivot lies so far to its left.
-    Rpr { offset: f64 },
-    Rrr { l1: f64, l2: f64 },
+    Rpr {
+        offset: f64,
+    },
+    Rrr {
+        l1: f64,
+        l2: f64,
+    },
     /// The slider runs along the unit vector `e`.
-    Prr { l: f64, e: Vector2<f64> },
+    Prr {
+        l: f64,
+        e: Vector2<f64>,
+    },
 }
 
 /// A leg's limits, prepared.
@@ -97,6 +105,9 @@ impl LegReach {
                 let slide = seen_from(turns[0], leg.links[0].at) + leg.links[1].at;
                 out.chain = Chain::Rpr { offset: slide.y };
                 out.stroke = stroke(1).map(|q| q + slide.x);
+                // A range of one sign rules the other mode out.
+                out.modes[0] &= out.stroke[1] >= 0.0;
+                out.modes[1] &= out.stroke[0] < 0.0;
                 out.base_sector = forward(0, product(base, turns[0]));
                 out.platform_sector = backward(2, product(platform, conjugate(turns[1])));
             }
@@ -134,7 +145,8 @@ impl LegReach {
             let d = (at - self.a).norm();
             return low - tol <= d && d <= high + tol;
         }
-        (self.modes[0] && self.allows_in(true, at, turn, tol)) || (self.modes[1] && self.allows_in(false, at, turn, tol))
+        (self.modes[0] && self.allows_in(true, at, turn, tol))
+            || (self.modes[1] && self.allows_in(false, at, turn, tol))
     }
 
     /// The same in one working mode.
@@ -186,7 +198,8 @@ impl LegReach {
                     return true;
                 }
                 let u = product(conjugate(Vector2::new(l1, 0.0) + elbow * l2), r) / (d * d);
-                points(&self.base_sector, u * l1) && points(&self.platform_sector, seen_from(turn, product(u, elbow)) * l2)
+                points(&self.base_sector, u * l1)
+                    && points(&self.platform_sector, seen_from(turn, product(u, elbow)) * l2)
             }
             Chain::Prr { l, e } => {
                 let seen = seen_from(e, r);

@@ -19,15 +19,20 @@
 //! It covers legs RPR, RRR and PRR, in any mixture, whichever joints are driven. Sources: Merlet, Gosselin, Mouly 1998, whose rules for
 //! the maximal, inclusive, total and dextrous workspaces are mended here (derivations/leg_reach.rs).
 
+mod arrangement;
 mod boundary;
+mod constant;
 mod folds;
 mod leg;
 mod limits;
+mod membership;
 mod reach;
 mod region;
+mod total;
 
 pub use boundary::{ArcCurve, BoundaryArc};
 pub use folds::CouplerArc;
 pub use limits::{ActiveLimit, Limit, LimitCause, WorkspaceError, WorkspaceModes};
-pub use reach::{Membership, Reach};
+pub use membership::Membership;
+pub use reach::Reach;
 pub use region::{Isolated, Loop, Region, Workspace, WorkspaceKind};

@@ -81,7 +81,14 @@ impl CouplerArc {
         self.adapt([0.0, 1.0], whole, origin, scale, DEPTH)
     }
 
-    fn adapt(&self, [from, to]: [f64; 2], whole: ArcIntegrals, origin: Point, scale: f64, depth: usize) -> ArcIntegrals {
+    fn adapt(
+        &self,
+        [from, to]: [f64; 2],
+        whole: ArcIntegrals,
+        origin: Point,
+        scale: f64,
+        depth: usize,
+    ) -> ArcIntegrals {
         let middle = 0.5 * (from + to);
         let (a, b) = (self.gauss(from, middle, origin), self.gauss(middle, to, origin));
         let sum = plus(&a, &b);

@@ -101,8 +101,7 @@ impl Coupled {
                 let along = b2 - b;
                 let f = along.norm();
                 let axis = if f > 0.0 { angle(n) - angle(along) } else { 0.0 };
-                let law =
-                    Law::CircleLine { e: h - n.dot(&a), f, r, first: [a, b], normal: n, turning: false };
+                let law = Law::CircleLine { e: h - n.dot(&a), f, r, first: [a, b], normal: n, turning: false };
                 circle_line(law, h - n.dot(&a), f, r, axis)
             }
             [Form::Circle { a, b, r }, Form::PlatformLine { a: a2, m, k }] => {
@@ -135,9 +134,9 @@ impl Coupled {
     /// The branches.
     pub(crate) fn branches(&self) -> impl Iterator<Item = Branch> + use<> {
         let sigmas = self.sigmas;
-        [true, false].into_iter().flat_map(move |half| {
-            [true, false].into_iter().take(sigmas).map(move |sigma| Branch { half, sigma })
-        })
+        [true, false]
+            .into_iter()
+            .flat_map(move |half| [true, false].into_iter().take(sigmas).map(move |sigma| Branch { half, sigma }))
     }
 
     /// The fraction of `[low, high]` at a parameter, its complement, and the derivative.
@@ -303,7 +302,13 @@ fn circles(first: [Point; 2], r: f64, second: [Point; 2], s: f64, frozen: &mut F
         return None;
     }
     let (p, q) = (if p <= SAME * scale { 0.0 } else { p }, if q <= SAME * scale { 0.0 } else { q });
-    let axis = if q == 0.0 { 0.0 } else if p == 0.0 { -angle(tip) } else { angle(base) - angle(tip) };
+    let axis = if q == 0.0 {
+        0.0
+    } else if p == 0.0 {
+        -angle(tip)
+    } else {
+        angle(base) - angle(tip)
+    };
     let unit = if p > 0.0 { base / p } else { Point::x() };
     let (p, q) = if same(p, q, scale) { (p, p) } else { (p, q) };
     let (r, s) = if same(r, s, scale) { (r, r) } else { (r, s) };

@@ -244,7 +244,9 @@ impl Curves {
             let Some(motion) = edges::apex(reach) else { continue };
             // The two ends of a joint's range meet at the pivot.
             for joint in [0, 2] {
-                let ends = |s: &usize| self.surfaces[*s].leg == leg && self.surfaces[*s].limits[0].cause.joint() == Some(joint);
+                let ends = |s: &usize| {
+                    self.surfaces[*s].leg == leg && self.surfaces[*s].limits[0].cause.joint() == Some(joint)
+                };
                 let found: Vec<usize> = (0..self.surfaces.len()).filter(ends).collect();
                 if let [one, other] = found[..] {
                     let generators = [one, other];
@@ -266,8 +268,7 @@ impl Curves {
                 }
                 let (curve, frozen) = Coupled::new(first.form, second.form);
                 let carrier = |phi: f64| first.form.carrier(direction(phi));
-                let motions: Vec<Motion> =
-                    frozen.into_iter().map(|phi| Motion::sliding(phi, carrier(phi))).collect();
+                let motions: Vec<Motion> = frozen.into_iter().map(|phi| Motion::sliding(phi, carrier(phi))).collect();
                 for motion in motions {
                     self.push(Course::Motion { motion, source: Source::Pair, generators: [one, other] });
                 }

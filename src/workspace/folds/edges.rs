@@ -118,7 +118,9 @@ pub(super) fn apex(leg: &LegReach) -> Option<Motion> {
 pub(super) fn bounds(leg: &LegReach, limit: &Limit, c: Point, turn: Point, tol: f64) -> bool {
     let at = c + product(turn, leg.b);
     let Some(plus) = limit.mode else {
-        return [true, false].into_iter().any(|plus| leg.modes[usize::from(!plus)] && leg.allows_in(plus, at, turn, tol));
+        return [true, false]
+            .into_iter()
+            .any(|plus| leg.modes[usize::from(!plus)] && leg.allows_in(plus, at, turn, tol));
     };
     let side = if plus { 1.0 } else { -1.0 };
     // Positive in the mode +, on the surface.

@@ -25,66 +25,12 @@ mod surface;
 pub use arc::CouplerArc;
 
 use super::reach::Reach;
+use super::region::{Workspace, WorkspaceKind};
 use crate::plane::PhiRange;
 
 impl Reach {
-    #[doc(hidden)]
-    pub fn debug_outline(&self, range: Option<&PhiRange>) -> (Vec<(super::BoundaryArc, usize, usize)>, usize, usize, Vec<[f64; 2]>) {
-        let out = outline::outline(self, range);
-        (out.boundary, out.separating.len(), out.isolated.len(), out.undecided)
-    }
-}
-impl Reach {
-    #[doc(hidden)]
-    pub fn debug_pieces(&self, range: Option<&PhiRange>) -> Vec<String> {
-        let mut t = outline::Tracer::new(self, range);
-        t.cross();
-        let allowed = range.map(PhiRange::set);
-        let reached = |at: nalgebra::Vector2<f64>| {
-            let set = self.orientations(at);
-            match &allowed { Some(range) => !set.intersect(range).is_empty(), None => !set.is_empty() }
-        };
-        t.folds.iter().map(|p| {
-            let (s, look) = t.standing(p, &reached);
-            let v = |k: usize| t.curves.vertices[k];
-            format!("{:.9} {:.9} -> {:.9} {:.9} [{}->{}] curve {} t {:.12}..{:.12} {:?} phi {:?} {:?} {:?}", v(p.start).x, v(p.start).y, v(p.end).x, v(p.end).y, p.start, p.end, p.curve, p.from, p.to, s, look.as_ref().and_then(|l| l.phi), look.as_ref().map(|l| l.active.iter().map(|x| x.to_string()).collect::<Vec<_>>()), match t.curves.curves[p.curve].course { curves::Course::Coupled{branch,..}=>format!("{branch:?}"), curves::Course::Motion{source,..}=>format!("{source:?}"), _=>"upright".into()})
-        }).collect()
-    }
-}
-
-impl Reach {
-    #[doc(hidden)]
-    pub fn debug_near(&self, range: Option<&PhiRange>, at: [f64; 2], tol: f64) -> Vec<String> {
-        let mut t = outline::Tracer::new(self, range);
-        let at: nalgebra::Vector2<f64> = at.into();
-        let mut out = vec![];
-        for c in 0..t.curves.curves.len() {
-            for p in t.pieces(c) {
-                let v = |k: usize| t.curves.vertices[k];
-                if (v(p.start) - at).norm() > tol && (v(p.end) - at).norm() > tol { continue }
-                let names = |g: [usize; 2]| g.map(|g| t.curves.surfaces[g].limits.iter().map(|l| l.active().to_string()).collect::<Vec<_>>());
-                let (what, gens) = match t.curves.curves[c].course {
-                    curves::Course::Coupled { branch, coupled } => (format!("{branch:?}"), names(t.curves.coupled[coupled].1)),
-                    curves::Course::Motion { source, generators, .. } => (format!("{source:?}"), names(generators)),
-                    curves::Course::Upright { surface, .. } => ("upright".into(), names([surface, surface])),
-                };
-                {
-                    let pt = t.curves.at(c, 0.5 * (p.from + p.to));
-                    if let Some((turn, _)) = pt.turn {
-                        let g = match t.curves.curves[c].course { curves::Course::Coupled { coupled, .. } => t.curves.coupled[coupled].1, curves::Course::Motion { generators, .. } => generators, _ => [0, 0] };
-                        let place = surface::Place { c: pt.at, turn };
-                        for g in g {
-                            let su = &t.curves.surfaces[g];
-                            for l in &su.limits {
-                                out.push(format!("      {} mode {:?} sense {} by_phi {:.3e} bend {:.3e} bounds {} value {:.2e}", l.active(), l.mode, l.sense, su.form.slope(&place).by_phi, outline::bend(&su.form, &place), edges::bounds(&self.legs[su.leg], l, pt.at, turn, 1e-11 * self.size()), su.form.value(&place)));
-                            }
-                        }
-                        out.push(format!("      legs {:?}", self.legs.iter().map(|l| l.allows_pose(pt.at, turn, 1e-11 * self.size())).collect::<Vec<_>>()));
-                    }
-                }
-                out.push(format!("{:.9} {:.9} -> {:.9} {:.9} [{}->{}] curve {c} t {:.12}..{:.12} look {} {what} {gens:?}", v(p.start).x, v(p.start).y, v(p.end).x, v(p.end).y, p.start, p.end, p.from, p.to, t.look(&p, 0.5).is_some()));
-            }
-        }
-        out
+    /// The maximal workspace, or that of a range of orientations.
+    pub(super) fn folded(&self, kind: &WorkspaceKind, range: Option<&PhiRange>) -> Workspace {
+        outline::outline(self, range).workspace(kind)
     }
 }

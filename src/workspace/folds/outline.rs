@@ -10,6 +10,7 @@ use nalgebra::Vector2;
 use super::super::boundary::{ArcCurve, BoundaryArc};
 use super::super::limits::{ActiveLimit, Limit};
 use super::super::reach::Reach;
+use super::super::region::{Isolated, JoinedArc, Region, Workspace, WorkspaceKind};
 use super::arc::CouplerArc;
 use super::coupled::EDGE;
 use super::crossings::{Chord, Common, chords, meet, nearest};
@@ -82,12 +83,22 @@ pub(super) enum Standing {
 /// The outline of a workspace: pieces with vertices.
 #[derive(Debug, Default)]
 pub(super) struct Outline {
-    /// The workspace on the left; start and end vertex.
-    pub(super) boundary: Vec<(BoundaryArc, usize, usize)>,
+    /// The workspace on the left.
+    pub(super) boundary: Vec<JoinedArc>,
     pub(super) separating: Vec<BoundaryArc>,
     pub(super) isolated: Vec<BoundaryArc>,
-    /// Places near which a piece could not be decided.
-    pub(super) undecided: Vec<[f64; 2]>,
+    /// Pieces whose sides said neither.
+    pub(super) undecided: Vec<BoundaryArc>,
+}
+
+impl Outline {
+    /// The workspace it bounds.
+    pub(super) fn workspace(self, kind: &WorkspaceKind) -> Workspace {
+        let isolated = self.isolated.into_iter().map(Isolated::Curve).collect();
+        let mut region = Region::from_arcs(self.boundary, isolated);
+        region.unclosed.extend(self.undecided);
+        Workspace { kind: *kind, region, separating: self.separating }
+    }
 }
 
 /// Whether some orientation is left at a place.
@@ -467,11 +478,12 @@ impl<'a> Tracer<'a> {
         self.drop_doubles(&mut boundary);
         // What runs along a boundary adds nothing to it.
         undecided.retain(|open| !boundary.iter().any(|other| self.along(&open.0, &other.0)));
-        out.undecided = undecided.iter().map(|open| open.2.at.into()).collect();
+        out.undecided = undecided.iter().map(|(piece, on_left, look)| self.arc(piece, *on_left, look)).collect();
         join(&mut boundary);
         for (piece, on_left, look) in &boundary {
             let ends = if *on_left { [piece.start, piece.end] } else { [piece.end, piece.start] };
-            out.boundary.push((self.arc(piece, *on_left, look), ends[0], ends[1]));
+            let arc = self.arc(piece, *on_left, look);
+            out.boundary.push(JoinedArc { arc, from: ends[0], to: ends[1], carrier: piece.curve });
         }
         out
     }
@@ -574,9 +586,8 @@ fn within(on: &Carrier, piece: &Piece, point: Point) -> Option<f64> {
 /// The side of a carrier on which an upright limit does not allow its places: 1 where its normal points.
 fn sense_on(limit: &Limit, on: &Carrier) -> f64 {
     let normal = on.normal(on.at(0.0));
-    let gradient = Form::of(&limit.dyad).map_or(normal, |form| {
-        form.slope(&Place { c: on.at(0.0), turn: Point::x() }).gradient
-    });
+    let gradient =
+        Form::of(&limit.dyad).map_or(normal, |form| form.slope(&Place { c: on.at(0.0), turn: Point::x() }).gradient);
     limit.sense * normal.dot(&gradient).signum()
 }
 
