@@ -24,9 +24,9 @@ pub enum ArcCurve {
         end_angle: f64,
     },
     /// A coupler curve: a sextic between two circles, a quartic between circle and line, and the conchoidal kinds.
-    Coupler(CouplerArc),
+    Coupler(Box<CouplerArc>),
     /// A coupler curve between two lines: an ellipse.
-    Ellipse(CouplerArc),
+    Ellipse(Box<CouplerArc>),
 }
 
 /// A piece of boundary; the workspace lies to its left.

@@ -28,12 +28,12 @@ pub struct CouplerArc {
 
 /// Gauss-Legendre nodes and weights of order 12 on [-1, 1], positive half.
 const NODES: [[f64; 2]; 6] = [
-    [0.125_233_408_511_468_92, 0.249_147_045_813_402_79],
-    [0.367_831_498_998_180_19, 0.233_492_536_538_354_81],
-    [0.587_317_954_286_617_45, 0.203_167_426_723_065_92],
-    [0.769_902_674_194_304_69, 0.160_078_328_543_346_23],
-    [0.904_117_256_370_474_86, 0.106_939_325_995_318_43],
-    [0.981_560_634_246_719_25, 0.047_175_336_386_511_83],
+    [0.125_233_408_511_468_9, 0.249_147_045_813_402_8],
+    [0.367_831_498_998_180_2, 0.233_492_536_538_354_8],
+    [0.587_317_954_286_617_4, 0.203_167_426_723_065_92],
+    [0.769_902_674_194_304_7, 0.160_078_328_543_346_23],
+    [0.904_117_256_370_474_9, 0.106_939_325_995_318_43],
+    [0.981_560_634_246_719_2, 0.047_175_336_386_511_83],
 ];
 
 /// Halves of an arc must agree with the whole to this share of its square (area) for it to count: some ten roundings.
@@ -53,7 +53,7 @@ impl CouplerArc {
     }
 
     /// Point and derivative by the part of the arc, from 0 to 1.
-    fn at(&self, part: f64) -> (Point, Point) {
+    pub(in super::super) fn at(&self, part: f64) -> (Point, Point) {
         let spot = self.curve.at(self.branch, self.parameter(part));
         (spot.place.c, spot.velocity * (self.to - self.from))
     }

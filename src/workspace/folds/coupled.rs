@@ -126,11 +126,6 @@ impl Coupled {
         (curve, frozen)
     }
 
-    /// The two limits, in the order `sigma` refers to.
-    pub(crate) fn forms(&self) -> &[Form; 2] {
-        &self.forms
-    }
-
     /// The branches.
     pub(crate) fn branches(&self) -> impl Iterator<Item = Branch> + use<> {
         let sigmas = self.sigmas;
@@ -267,12 +262,12 @@ impl Coupled {
                 break;
             }
             let nearer = miss(next);
-            // Not written as `>=`, so that what is not a number is no improvement either.
-            if !(nearer.0.norm() < off.norm()) {
+            if nearer.0.norm() < off.norm() {
+                t = next;
+                (off, velocity) = nearer;
+            } else {
                 break;
             }
-            t = next;
-            (off, velocity) = nearer;
         }
         (branch, t, off.norm())
     }
@@ -450,7 +445,7 @@ mod tests {
             for branch in curve.branches() {
                 let spot = curve.at(branch, t);
                 if curve.ends[0] == End::Off && spot.place.c.norm() > 1e3 { continue }
-                for form in curve.forms() {
+                for form in &curve.forms {
                     prop_assert!(form.value(&spot.place).abs() < 1e-11, "{:?}", form.value(&spot.place));
                 }
                 let step = 1e-6;

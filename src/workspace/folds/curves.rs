@@ -292,8 +292,7 @@ impl Curves {
         let Ok(found) = book.coupled.binary_search_by(|entry| entry.1.cmp(&[one, other])) else { return };
         let coupled = book.coupled[found].0;
         let (branch, t, off) = self.coupled[coupled].0.locate(place, phi);
-        // Not a number, or not on the branch.
-        if !(off <= ON_CURVE * self.size) {
+        if off.is_nan() || off > ON_CURVE * self.size {
             return;
         }
         let branches = self.coupled[coupled].0.branches();

@@ -11,7 +11,7 @@
 //!
 //! On each of them another limit is met at orientations (or places) in closed form, in the forms that keep their digits at a touch.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 use arrayvec::ArrayVec;
 use nalgebra::Vector2;
@@ -225,11 +225,6 @@ fn either(middle: f64, above: f64, below: f64, tol: f64) -> ArrayVec<f64, 2> {
 
 pub(crate) fn angle(v: Point) -> f64 {
     v.y.atan2(v.x)
-}
-
-/// A parameter brought into one turn from `from`.
-pub(crate) fn turned_past(parameter: f64, from: f64) -> f64 {
-    from + (parameter - from).rem_euclid(TAU)
 }
 
 #[cfg(test)]

@@ -18,7 +18,7 @@ use super::curves::{AROUND, Course, Curves, Source, active_of, outside};
 use super::edges;
 use super::surface::{Form, Place, Slope, quarter};
 use crate::linkage::Dyad;
-use crate::plane::{AngleSet, Carrier, Meeting, PhiRange, product};
+use crate::plane::{Carrier, Meeting, PhiRange, product};
 
 type Point = Vector2<f64>;
 
@@ -527,7 +527,7 @@ impl<'a> Tracer<'a> {
             Course::Coupled { coupled, branch } => {
                 let (curve, generators) = &self.curves.coupled[coupled];
                 let pair = look.pair.unwrap_or_else(|| generators.map(|g| self.curves.surfaces[g].limits[0]));
-                let arc = CouplerArc::new(pair, *curve, branch, [from, to]);
+                let arc = Box::new(CouplerArc::new(pair, *curve, branch, [from, to]));
                 if pair.iter().all(|limit| matches!(limit.dyad, Dyad::PR { .. })) {
                     ArcCurve::Ellipse(arc)
                 } else {
@@ -598,13 +598,5 @@ pub(super) fn bend(form: &Form, place: &Place) -> f64 {
         Form::Circle { a, b, .. } => -(place.c - a).dot(&product(place.turn, b)),
         Form::Line { n, b, .. } => -n.dot(&product(place.turn, b)),
         Form::PlatformLine { k, .. } => -k,
-    }
-}
-
-/// The orientations left by a range.
-pub(super) fn within_range(set: AngleSet, range: Option<&PhiRange>) -> AngleSet {
-    match range {
-        Some(range) if !range.is_full() => set.intersect(&range.set()),
-        _ => set,
     }
 }

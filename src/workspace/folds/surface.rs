@@ -67,6 +67,7 @@ impl Form {
     }
 
     /// How far a pose is off the surface, a length; signed as the dyad's value less its bound.
+    #[cfg(test)]
     pub(crate) fn value(&self, at: &Place) -> f64 {
         match *self {
             Self::Circle { a, b, r } => (at.c + product(at.turn, b) - a).norm() - r,
@@ -112,15 +113,6 @@ impl Form {
         match *self {
             Self::Circle { b, .. } | Self::Line { b, .. } => b.norm() <= tol,
             Self::PlatformLine { .. } => false,
-        }
-    }
-
-    /// Largest number in it, a length.
-    pub(crate) fn size(&self) -> f64 {
-        match *self {
-            Self::Circle { a, b, r } => a.norm().max(b.norm()).max(r),
-            Self::Line { h, b, .. } => h.abs().max(b.norm()),
-            Self::PlatformLine { a, k, .. } => a.norm().max(k.abs()),
         }
     }
 }
