@@ -18,10 +18,10 @@
 use nalgebra::Vector2;
 
 use super::super::leg::{Chain, LegReach};
-use super::super::limits::{Limit, LimitCause};
+use super::super::limits::{Limit, LimitCause, seen_from};
 use super::motion::{Motion, angle};
 use super::surface::quarter;
-use crate::plane::{Carrier, conjugate, product};
+use crate::plane::{Carrier, Sector, conjugate, product};
 
 type Point = Vector2<f64>;
 
@@ -54,7 +54,7 @@ fn held(leg: &LegReach, limit: &Limit) -> Option<Held> {
         }
     };
     // The direction seen from the platform turns back while the joint's value grows.
-    let ends = |sector: &Option<crate::plane::Sector>, from_first: bool| {
+    let ends = |sector: &Option<Sector>, from_first: bool| {
         sector.map(|sector| if from_first { sector.from } else { sector.to })
     };
     match (leg.chain, joint) {
@@ -112,6 +112,62 @@ pub(super) fn apex(leg: &LegReach) -> Option<Motion> {
     let zero = matches!(leg.chain, Chain::Rpr { offset: 0.0 }) && leg.stroke[0] <= 0.0 && leg.stroke[1] >= 0.0;
     let ranged = leg.base_sector.is_some() || leg.platform_sector.is_some();
     (zero && ranged).then_some(Motion::Pinned { q: leg.a, p: leg.b })
+}
+
+/// Whether a leg with two of its limits held is allowed at a pose of the motion left to it: its third joint in range, and the mode that of both limits. Bounds missed by `tol`, a length, are met.
+///
+/// Asked of the joints held and not of the pose, in which merging modes hide a joint's value behind a root.
+pub(super) fn holds(leg: &LegReach, limits: [&Limit; 2], c: Point, turn: Point, tol: f64) -> bool {
+    use Held::{Elbow, First, Last, Link, Stroke};
+    let from_base = c + product(turn, leg.b) - leg.a;
+    let points = |sector: &Option<Sector>, v: Point| sector.is_none_or(|sector| sector.contains(v, tol));
+    let within = |rho: f64| leg.stroke[0] - tol <= rho && rho <= leg.stroke[1] + tol;
+    // Positive in the mode +; zero where modes merge.
+    let is_mode = |measure: f64| {
+        limits.iter().all(|limit| limit.mode.is_none_or(|plus| if plus { measure >= -tol } else { measure <= tol }))
+            && ((leg.modes[0] && measure >= -tol) || (leg.modes[1] && measure <= tol))
+    };
+    let (Some(one), Some(other)) = (held(leg, limits[0]), held(leg, limits[1])) else { return false };
+    match (leg.chain, one, other) {
+        (Chain::Rpr { .. }, First(u), Stroke(rho)) | (Chain::Rpr { .. }, Stroke(rho), First(u)) => {
+            within(rho) && is_mode(rho) && points(&leg.platform_sector, seen_from(turn, u))
+        }
+        (Chain::Rpr { .. }, Last(v), Stroke(rho)) | (Chain::Rpr { .. }, Stroke(rho), Last(v)) => {
+            within(rho) && is_mode(rho) && points(&leg.base_sector, product(turn, v))
+        }
+        (Chain::Rpr { .. }, First(u), Last(_)) | (Chain::Rpr { .. }, Last(_), First(u)) => {
+            let rho = u.dot(&from_base);
+            within(rho) && is_mode(rho)
+        }
+        (Chain::Rrr { l2, .. }, First(u), Elbow(e)) | (Chain::Rrr { l2, .. }, Elbow(e), First(u)) => {
+            let v = seen_from(turn, product(u, e));
+            points(&leg.elbow_sector, e * l2) && is_mode(e.y) && points(&leg.platform_sector, v * l2)
+        }
+        (Chain::Rrr { l1, l2 }, Last(v), Elbow(e)) | (Chain::Rrr { l1, l2 }, Elbow(e), Last(v)) => {
+            let u = product(product(turn, v), conjugate(e));
+            points(&leg.elbow_sector, e * l2) && is_mode(e.y) && points(&leg.base_sector, u * l1)
+        }
+        (Chain::Rrr { l2, .. }, First(u), Last(v)) | (Chain::Rrr { l2, .. }, Last(v), First(u)) => {
+            let e = product(conjugate(u), product(turn, v));
+            points(&leg.elbow_sector, e * l2) && is_mode(e.y * l2)
+        }
+        (Chain::Prr { l, e }, Stroke(rho), Link(w)) | (Chain::Prr { l, e }, Link(w), Stroke(rho)) => {
+            let merged = limits.iter().any(|limit| limit.mode.is_none());
+            let measure = if merged { 0.0 } else { -w.dot(&e) };
+            let v = seen_from(turn, w);
+            within(rho) && points(&leg.base_sector, w * l) && is_mode(measure) && points(&leg.platform_sector, v * l)
+        }
+        (Chain::Prr { l, e }, Stroke(rho), Last(v)) | (Chain::Prr { l, e }, Last(v), Stroke(rho)) => {
+            let w = product(turn, v);
+            within(rho) && points(&leg.base_sector, w * l) && is_mode(-w.dot(&e) * l)
+        }
+        (Chain::Prr { l, e }, Link(w), Last(_)) | (Chain::Prr { l, e }, Last(_), Link(w)) => {
+            let merged = limits.iter().any(|limit| limit.mode.is_none());
+            let measure = if merged { 0.0 } else { -w.dot(&e) };
+            within(e.dot(&from_base) - l * w.dot(&e)) && points(&leg.base_sector, w * l) && is_mode(measure)
+        }
+        _ => leg.allows(c + product(turn, leg.b), turn, tol),
+    }
 }
 
 /// Whether a pose on a limit's surface is a bound of the leg: the leg is in the limit's mode and its other joints are in range, all by `tol`, a length.

@@ -31,6 +31,8 @@ const BESIDE: [f64; 4] = [1e-12, 1e-11, 1e-10, 1e-9];
 const SAME_VERTEX: f64 = 1e-10;
 /// Curves that stay together over this share of the mechanism's length, or less, touch: between them is less than the square of it.
 const TOUCHING: f64 = 1e-6;
+/// The normals of two limits of one leg are opposite below this (error bound: where modes merge they are opposite to roundings, else far from it).
+const CUSP: f64 = 1e-7;
 /// An orientation this far outside its range, in radians, is at its end.
 const PHI_SLACK: f64 = 1e-12;
 /// Where along a piece it is looked at: first in the middle.
@@ -60,6 +62,8 @@ pub(super) struct Look {
     pub(super) phi: Option<f64>,
     /// Away from the places at which the orientation is allowed.
     pub(super) outward: Point,
+    /// Whether it may as well be the other way.
+    pub(super) either: bool,
     pub(super) active: Vec<ActiveLimit>,
     /// The limits held, of a coupled curve.
     pub(super) pair: Option<[Limit; 2]>,
@@ -246,7 +250,7 @@ impl<'a> Tracer<'a> {
             Course::Upright { surface, on } => {
                 let limit = self.curves.surfaces[surface].limits[0];
                 let outward = on.normal(at) * sense_on(&limit, &on);
-                return Some(Look { at, phi: None, outward, active: vec![limit.active()], pair: None });
+                return Some(Look { at, phi: None, outward, either: true, active: vec![limit.active()], pair: None });
             }
             Course::Motion { source, generators, .. } => (source, generators),
             Course::Coupled { coupled, .. } => (Source::Pair, self.curves.coupled[coupled].1),
@@ -283,7 +287,13 @@ impl<'a> Tracer<'a> {
                 if !single && same_leg && one.mode.is_some() && other.mode.is_some() && one.mode != other.mode {
                     continue;
                 }
-                if closes(one, other) && bounds(0, one) && (single || bounds(1, other)) {
+                let valid = || {
+                    if !single && same_leg {
+                        return edges::holds(legs[0], [one, other], at, turn, tol);
+                    }
+                    bounds(0, one) && (single || bounds(1, other))
+                };
+                if closes(one, other) && valid() {
                     found = Some((*one, *other));
                     break 'search;
                 }
@@ -298,13 +308,16 @@ impl<'a> Tracer<'a> {
         let (n1, n2) = (slopes[0].gradient * one.sense, slopes[1].gradient * other.sense);
         if source == Source::Pair {
             let outward = n1 * slopes[1].by_phi.abs() + n2 * slopes[0].by_phi.abs();
-            let outward = outward.try_normalize(0.0)?;
+            let weight = slopes[0].by_phi.abs() + slopes[1].by_phi.abs();
+            // Limits of one leg that touch in a cusp: the way out is across the curve, on the side the cusp does not open to.
+            let either = one.leg == other.leg && outward.norm() <= CUSP * weight;
+            let outward = if either { quarter(point.velocity) } else { outward }.try_normalize(0.0)?;
             let coupled = matches!(self.curves.curves[piece.curve].course, Course::Coupled { .. });
             let active = active_of(&[&one, &other], Some(source));
-            Some(Look { at, phi: Some(phi), outward, active, pair: coupled.then_some([one, other]) })
+            Some(Look { at, phi: Some(phi), outward, either, active, pair: coupled.then_some([one, other]) })
         } else {
             let active = active_of(&[&one], Some(source));
-            Some(Look { at, phi: Some(phi), outward: n1, active, pair: None })
+            Some(Look { at, phi: Some(phi), outward: n1, either: false, active, pair: None })
         }
     }
 
@@ -446,7 +459,7 @@ impl<'a> Tracer<'a> {
                 match (inside, outside) {
                     (true, false) => return (Standing::Boundary(on_left), Some(look)),
                     (true, true) => return (Standing::Separating(on_left), Some(look)),
-                    (false, true) if look.phi.is_none() => return (Standing::Boundary(!on_left), Some(look)),
+                    (false, true) if look.either => return (Standing::Boundary(!on_left), Some(look)),
                     (false, false) if look.phi.is_none() => {
                         let standing = if reached(look.at) { Standing::Isolated } else { Standing::Nothing };
                         return (standing, Some(look));
