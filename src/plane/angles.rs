@@ -132,8 +132,7 @@ impl AngleSet {
     /// Whether an angle, any number of turns away, is in it.
     pub fn contains(&self, angle: f64) -> bool {
         let angle = principal(angle);
-        self.is_full()
-            || self.intervals.iter().any(|&[from, to]| (from <= angle && angle <= to) || angle + TAU <= to)
+        self.is_full() || self.intervals.iter().any(|&[from, to]| (from <= angle && angle <= to) || angle + TAU <= to)
     }
 
     /// Angles in both.
@@ -261,9 +260,11 @@ mod tests {
     use proptest::prelude::*;
 
     fn set() -> impl Strategy<Value = AngleSet> {
-        prop::collection::vec((-7.0..7.0f64, prop_oneof![0.0..3.0f64, Just(0.0), Just(PI)]), 0..4).prop_map(|arcs: Vec<(f64, f64)>| {
-            arcs.iter().fold(AngleSet::empty(), |set, &(from, width)| set.union(&AngleSet::arc(from, width)))
-        })
+        prop::collection::vec((-7.0..7.0f64, prop_oneof![0.0..3.0f64, Just(0.0), Just(PI)]), 0..4).prop_map(
+            |arcs: Vec<(f64, f64)>| {
+                arcs.iter().fold(AngleSet::empty(), |set, &(from, width)| set.union(&AngleSet::arc(from, width)))
+            },
+        )
     }
 
     proptest! {

@@ -23,10 +23,18 @@ use crate::plane::{Sector, conjugate, direction, product};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Chain {
     /// The slider's axis passes the base pivot at this signed distance: the platform pivot lies so far to its left.
-    Rpr { offset: f64 },
-    Rrr { l1: f64, l2: f64 },
+    Rpr {
+        offset: f64,
+    },
+    Rrr {
+        l1: f64,
+        l2: f64,
+    },
     /// The slider runs along the unit vector `e`.
-    Prr { l: f64, e: Vector2<f64> },
+    Prr {
+        l: f64,
+        e: Vector2<f64>,
+    },
 }
 
 /// A leg's limits, prepared.
@@ -137,7 +145,8 @@ impl LegReach {
             let d = (at - self.a).norm();
             return low - tol <= d && d <= high + tol;
         }
-        (self.modes[0] && self.allows_in(true, at, turn, tol)) || (self.modes[1] && self.allows_in(false, at, turn, tol))
+        (self.modes[0] && self.allows_in(true, at, turn, tol))
+            || (self.modes[1] && self.allows_in(false, at, turn, tol))
     }
 
     /// The same in one working mode.
@@ -189,7 +198,8 @@ impl LegReach {
                     return true;
                 }
                 let u = product(conjugate(Vector2::new(l1, 0.0) + elbow * l2), r) / (d * d);
-                points(&self.base_sector, u * l1) && points(&self.platform_sector, seen_from(turn, product(u, elbow)) * l2)
+                points(&self.base_sector, u * l1)
+                    && points(&self.platform_sector, seen_from(turn, product(u, elbow)) * l2)
             }
             Chain::Prr { l, e } => {
                 let seen = seen_from(e, r);

@@ -57,7 +57,9 @@ impl LegReach {
         /// Within a gap up to this wide (radians) the worst orientation is the middle, to first order.
         const NARROW: f64 = 1e-4;
         let range = range.unwrap_or(&PhiRange::FULL);
-        if tol == 0.0 && !(self.allows_pose(at, direction(range.from), 0.0) && self.allows_pose(at, direction(range.to()), 0.0)) {
+        if tol == 0.0
+            && !(self.allows_pose(at, direction(range.from), 0.0) && self.allows_pose(at, direction(range.to()), 0.0))
+        {
             return false;
         }
         let set = self.orientations(at, super::reach::TOUCH * size);
