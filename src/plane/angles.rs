@@ -233,12 +233,10 @@ impl AngleSet {
         if let (Some(&first), Some(&last)) = (joined.first(), joined.last())
             && last[1] >= PI
         {
-            if joined.len() > 1 {
-                if first[0] <= -PI {
-                    joined.remove(0);
-                    if let Some(last) = joined.last_mut() {
-                        last[1] = first[1] + TAU;
-                    }
+            if joined.len() > 1 && first[0] <= -PI {
+                joined.remove(0);
+                if let Some(last) = joined.last_mut() {
+                    last[1] = first[1] + TAU;
                 }
             }
             // A lone pi is written -pi.
