@@ -120,9 +120,9 @@ impl Plan<'_> {
                 }
                 let active = self.active(line, left, right);
                 let ahead = sides != [false, true];
-                let at =
-                    |id: usize, parameter: f64| vertices.get(id).copied().unwrap_or_else(|| line.carrier.at(parameter));
-                let ends = [at(piece.ends[0], piece.from), at(piece.ends[1], piece.to)];
+                // A whole circle without a vertex starts and ends in one and the same point.
+                let at = |id: usize| vertices.get(id).copied().unwrap_or_else(|| line.carrier.at(piece.from));
+                let ends = piece.ends.map(at);
                 let arc = boundary_arc(&line.carrier, [piece.from, piece.to], ends, ahead, active);
                 if sides == [false, false] {
                     isolated.push(Isolated::Curve(arc));

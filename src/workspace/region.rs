@@ -80,6 +80,7 @@ pub struct Loop {
 
 /// A part of a region that has no area.
 #[derive(Clone, Debug, PartialEq)]
+#[allow(clippy::large_enum_variant, reason = "a region has a few of them at most")]
 pub enum Isolated {
     /// A point.
     Point {
