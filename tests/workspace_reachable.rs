@@ -320,7 +320,7 @@ fn random_manipulator(random: &mut Random, trouble: Trouble) -> Manipulator {
     let mut legs: Vec<Leg> = Vec::new();
     for k in 0..3 {
         let (a, b) = (base[k].into(), platform[k].into());
-        let mut stroke = |random: &mut Random, low: f64, high: f64, longest: f64| {
+        let stroke = |random: &mut Random, low: f64, high: f64, longest: f64| {
             let from = snap(random.between(low, high));
             let length = if trouble == Trouble::Slivers {
                 10f64.powf(random.between(-6.0, -1.0))
