@@ -22,12 +22,12 @@ pub fn document() -> String {
     );
     page.step(
         "The table",
-        "leg   joint 1             joint 2                      joint 3                       modes merge\n\
-         RPR   B on a ray: PR      |AB| = |rho|: RR             A on a platform line: RP      |AB| = |offset|\n\
-         RRR   |B - E| = l2: RR    |AB| = |l1 + l2 e(q2)|: RR   |E - A| = l1: RR              |AB| = l1 +- l2\n\
-         PRR   |B - M| = l: RR     h = l sin(angle): PR         E on the slider's line: PR    h = +-l: PR\n\
+        "leg  joint 1           joint 2                 joint 3                   modes merge\n\
+         RPR  B on a ray: PR    |AB| = |rho|: RR        A on a platform line: RP  |AB| = |o|\n\
+         RRR  |B - E| = l2: RR  |AB| by cosine law: RR  |E - A| = l1: RR          |AB| = l1 +- l2\n\
+         PRR  |B - M| = l: RR   h = l sin(angle): PR    E on slider's line: PR    h = +-l: PR\n\
          \n\
-         The three joint angles enter through unit vectors, so placements of the joint frames only shift where a range begins; E = B - l2 R v. Joint 3 turns back \
+         The three joint angles enter through unit vectors, so placements of the joint frames only shift where a range begins; E = B - l2 R v, o = the slider's offset. Joint 3 turns back \
          as the platform turns on: its range in v runs from K e(-max) to K e(-min).",
     );
     let mut on_surface = 0.0_f64;
