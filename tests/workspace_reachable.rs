@@ -60,7 +60,7 @@ fn winding(arcs: &[BoundaryArc], point: Point) -> (f64, f64) {
 }
 
 fn is_one_or_none(winding: f64, inside: bool) -> bool {
-    (winding - if inside { 1.0 } else { 0.0 }).abs() < 1e-6
+    (winding - if inside { 1.0 } else { 0.0 }).abs() < 1e-3
 }
 
 // ── reference values ──

@@ -202,7 +202,10 @@ impl LegReach {
                     return false;
                 }
                 let half = (gap.max(0.0) * (l + seen.y.abs())).sqrt();
-                if !within(seen.x + side * half) {
+                // Where the modes nearly merge a small gap hides the stroke behind a root: any of a gap within the tolerance will do.
+                let [least, most] = [gap - tol, gap + tol].map(|gap| (gap.max(0.0) * (l + seen.y.abs())).sqrt());
+                let [low, high] = if plus { [least, most] } else { [-most, -least] };
+                if seen.x + high < self.stroke[0] - tol || seen.x + low > self.stroke[1] + tol {
                     return false;
                 }
                 let w = product(e, Vector2::new(-side * half, seen.y));
