@@ -45,6 +45,13 @@ def _axes(ax: Axes | None, *, equal: bool = True) -> Axes:
     return ax
 
 
+def _window(ax: Axes, low: Points, high: Points) -> None:
+    """Exactly this part of the plane: the box gives way, not the limits."""
+    ax.set_aspect("equal", adjustable="box")
+    ax.set_xlim(low[0], high[0])
+    ax.set_ylim(low[1], high[1])
+
+
 def _colour(place: int) -> str:
     return COLOURS[place % len(COLOURS)]
 
@@ -195,14 +202,15 @@ def loci(answer: SingularityLoci, ax: Axes | None) -> Axes:
                 ax.plot(x, y, color="#8a949e", lw=1.0, zorder=2)
             elif curve.point is not None and curve.direction is not None:
                 ax.axline(tuple(curve.point), tuple(curve.point + curve.direction), color="#8a949e", lw=1.0, zorder=2)
-    for place, (mode, piece) in enumerate(zip(answer.type_2.modes, pieces, strict=True)):
-        if len(piece):
-            lines = LineCollection(list(piece), colors=_colour(place), linewidths=1.6, label=mode.signs, zorder=3)
-            ax.add_collection(lines)
-    if any(len(piece) for piece in pieces):
+    drawn = {mode.signs: piece for mode, piece in zip(answer.type_2.modes, pieces, strict=True) if len(piece)}
+    if len(drawn) > 1 and all(np.array_equal(piece, pieces[0]) for piece in pieces):
+        drawn = {"all": pieces[0]}
+    for place, (signs, piece) in enumerate(drawn.items()):
+        lines = LineCollection(list(piece), colors=_colour(place), linewidths=1.6, label=signs, zorder=3)
+        ax.add_collection(lines)
+    if drawn:
         ax.legend(title="type 2, mode", fontsize="small")
-    ax.set_xlim(low[0], high[0])
-    ax.set_ylim(low[1], high[1])
+    _window(ax, low, high)
     ax.set_title(f"singular positions, φ = {answer.phi:.6g} rad")
     return ax
 
@@ -241,8 +249,7 @@ def animate(answer: FollowedPath, ax: Axes | None, *, frames: int, interval: flo
         _axes(ax)
         ax.plot(answer.poses[:, 0], answer.poses[:, 1], "-", color="#8a949e", lw=1.0)
         _chains(ax, robot, joints[frame], COLOURS[1])
-        ax.set_xlim(low[0] - room, high[0] + room)
-        ax.set_ylim(low[1] - room, high[1] + room)
+        _window(ax, low - room, high + room)
         ax.set_title(f"row {answer.rows[chosen[frame]].step}")
         return list(ax.get_children())
 

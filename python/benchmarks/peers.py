@@ -49,6 +49,7 @@ def main() -> None:
     for name, road, times in roads:
         best, found = measured(road, times)
         print(f"| {name} | {distinct(found, a, b, size)} | 6 | {shown(best)} |")
+    assert distinct(robot.forward_batch(INPUTS[np.newaxis])[0], a, b, size) == 6
     rows = INPUTS * np.random.default_rng(1).uniform(0.9, 1.1, size=(ROWS, 3))
     best, batch = measured(lambda: robot.forward(rows), 3)
     print(f"\nforward on ({ROWS}, 3): {shown(best)}, {int(batch.counts.sum())} modes, {best / ROWS * 1e9:.0f} ns a row")
@@ -109,7 +110,9 @@ def by_fsolve(a: Poses, b: Poses) -> Poses:
 
 def by_sympy(a: Poses, b: Poses) -> Poses:
     import sympy
+    from sympy.core.cache import clear_cache
 
+    clear_cache()  # or the second run only remembers the first
     x, y, c, s = sympy.symbols("x y c s")
     exact = [[sympy.Rational(float(value)).limit_denominator(10**4) for value in row] for row in np.hstack([a, b])]
     lengths = [sympy.Rational(str(value)) for value in INPUTS]
