@@ -163,15 +163,9 @@ impl LegReach {
                     return false;
                 }
                 let rho = side * (gap.max(0.0) * (d + offset.abs())).sqrt();
-                // rho u, of the slider's length; where the pivots meet every direction of it is one.
-                let slider = if d > 0.0 {
-                    let scale = if offset == 0.0 { side } else { rho / d / d };
-                    if offset == 0.0 { r * scale } else { product(Vector2::new(rho, -offset), r) * scale }
-                } else {
-                    Vector2::zeros()
-                };
-                // The sectors are of u itself, which points along rho u for a positive stroke.
-                let u = slider * side;
+                // The slider's direction times the distance of the pivots, so that the sector's tolerance is a length; where
+                // the pivots meet every direction is one.
+                let u = if offset == 0.0 { r * side } else { product(Vector2::new(rho, -offset), r) / d };
                 within(rho) && points(&self.base_sector, u) && points(&self.platform_sector, seen_from(turn, u))
             }
             Chain::Rrr { l1, l2 } => {
