@@ -60,7 +60,7 @@ fn winding(arcs: &[BoundaryArc], point: Point) -> (f64, f64) {
 }
 
 fn is_one_or_none(winding: f64, inside: bool) -> bool {
-    (winding - if inside { 1.0 } else { 0.0 }).abs() < 1e-6
+    (winding - if inside { 1.0 } else { 0.0 }).abs() < 1e-3
 }
 
 // ── reference values ──
@@ -320,7 +320,7 @@ fn random_manipulator(random: &mut Random, trouble: Trouble) -> Manipulator {
     let mut legs: Vec<Leg> = Vec::new();
     for k in 0..3 {
         let (a, b) = (base[k].into(), platform[k].into());
-        let mut stroke = |random: &mut Random, low: f64, high: f64, longest: f64| {
+        let stroke = |random: &mut Random, low: f64, high: f64, longest: f64| {
             let from = snap(random.between(low, high));
             let length = if trouble == Trouble::Slivers {
                 10f64.powf(random.between(-6.0, -1.0))

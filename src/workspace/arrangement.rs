@@ -76,6 +76,13 @@ impl Plan<'_> {
         }
         // Zero radii are points of their own.
         let points = vertices.len();
+        for (v, &p) in vertices.iter().enumerate() {
+            for line in &mut lines {
+                if line.carrier.distance(p).abs() <= same {
+                    line.cuts.push((line.carrier.parameter(p), v));
+                }
+            }
+        }
         for i in 1..lines.len() {
             for j in 0..i {
                 let Meeting::Points(found) = lines[i].carrier.meet(&lines[j].carrier, same) else { continue };

@@ -202,7 +202,10 @@ impl LegReach {
                     return false;
                 }
                 let half = (gap.max(0.0) * (l + seen.y.abs())).sqrt();
-                if !within(seen.x + side * half) {
+                // Where the modes nearly merge a small gap hides the stroke behind a root: any of a gap within the tolerance will do.
+                let [least, most] = [gap - tol, gap + tol].map(|gap| (gap.max(0.0) * (l + seen.y.abs())).sqrt());
+                let [low, high] = if plus { [least, most] } else { [-most, -least] };
+                if seen.x + high < self.stroke[0] - tol || seen.x + low > self.stroke[1] + tol {
                     return false;
                 }
                 let w = product(e, Vector2::new(-side * half, seen.y));
@@ -280,15 +283,21 @@ impl LegReach {
                 }
             }
         }
+        let ranged = self.base_sector.is_some() || self.elbow_sector.is_some() || self.platform_sector.is_some();
         let mut merge = |cause, dyad, sense| out.push(Limit { leg, mode: None, cause, dyad, sense });
         match self.chain {
             Chain::Rpr { offset } if offset != 0.0 => {
                 merge(LimitCause::Shortest, Dyad::RR { a, b, length: offset.abs() }, -1.0);
             }
-            Chain::Rpr { .. } => {}
+            // A point bounds nothing, but there the surfaces of the ranges pass from one mode to the other.
+            Chain::Rpr { .. } => {
+                if ranged && self.stroke[0] < 0.0 && self.stroke[1] > 0.0 {
+                    merge(LimitCause::Shortest, Dyad::RR { a, b, length: 0.0 }, -1.0);
+                }
+            }
             Chain::Rrr { l1, l2 } => {
                 merge(LimitCause::Stretched, Dyad::RR { a, b, length: l1 + l2 }, 1.0);
-                if l1 != l2 {
+                if l1 != l2 || ranged {
                     merge(LimitCause::Folded, Dyad::RR { a, b, length: (l1 - l2).abs() }, -1.0);
                 }
             }

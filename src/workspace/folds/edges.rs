@@ -107,11 +107,15 @@ pub(super) fn edge(leg: &LegReach, one: &Limit, other: &Limit) -> Option<Motion>
     })
 }
 
-/// The pin of an RPR leg whose stroke can be zero without an offset: both joint ranges end there.
+/// The pin of a leg whose two pivots can meet, an RPR leg without offset at stroke zero, an RRR leg of equal links folded: there both joint ranges end.
 pub(super) fn apex(leg: &LegReach) -> Option<Motion> {
-    let zero = matches!(leg.chain, Chain::Rpr { offset: 0.0 }) && leg.stroke[0] <= 0.0 && leg.stroke[1] >= 0.0;
+    let meets = match leg.chain {
+        Chain::Rpr { offset } => offset == 0.0 && leg.stroke[0] <= 0.0 && leg.stroke[1] >= 0.0,
+        Chain::Rrr { l1, l2 } => l1 == l2,
+        Chain::Prr { .. } => false,
+    };
     let ranged = leg.base_sector.is_some() || leg.platform_sector.is_some();
-    (zero && ranged).then_some(Motion::Pinned { q: leg.a, p: leg.b })
+    (meets && ranged).then_some(Motion::Pinned { q: leg.a, p: leg.b })
 }
 
 /// Whether a leg with two of its limits held is allowed at a pose of the motion left to it: its third joint in range, and the mode that of both limits. Bounds missed by `tol`, a length, are met.
@@ -166,7 +170,8 @@ pub(super) fn holds(leg: &LegReach, limits: [&Limit; 2], c: Point, turn: Point, 
             let measure = if merged { 0.0 } else { -w.dot(&e) };
             within(e.dot(&from_base) - l * w.dot(&e)) && points(&leg.base_sector, w * l) && is_mode(measure)
         }
-        _ => leg.allows(c + product(turn, leg.b), turn, tol),
+        // The pivots meet: the leg turns freely, and membership on both sides decides.
+        _ => true,
     }
 }
 

@@ -5,6 +5,8 @@
 //! 3. Each piece is decided by the exact set of orientations on both its sides: empty outside and not inside, it is boundary; not empty on both, another way of
 //!    reaching the places covers it, and it is kept as a separating arc.
 
+use std::collections::HashMap;
+
 use nalgebra::Vector2;
 
 use super::super::boundary::{ArcCurve, BoundaryArc};
@@ -489,6 +491,7 @@ impl<'a> Tracer<'a> {
             }
         }
         self.drop_doubles(&mut boundary);
+        self.prune(&mut boundary);
         // What runs along a boundary adds nothing to it.
         undecided.retain(|open| !boundary.iter().any(|other| self.along(&open.0, &other.0)));
         out.undecided = undecided.iter().map(|(piece, on_left, look)| self.arc(piece, *on_left, look)).collect();
@@ -515,18 +518,47 @@ impl<'a> Tracer<'a> {
         *pieces = kept;
     }
 
-    /// Whether a piece runs along another between the same vertices.
-    fn along(&self, piece: &Piece, other: &Piece) -> bool {
-        let same = [piece.start, piece.end] == [other.start, other.end];
-        if !same && [piece.end, piece.start] != [other.start, other.end] {
-            return false;
+    /// Takes away pieces that lead nowhere and run along others, closer than their sides could tell.
+    fn prune(&self, pieces: &mut Vec<(Piece, bool, Look)>) {
+        loop {
+            let mut balance: HashMap<usize, i32> = HashMap::new();
+            for (piece, on_left, _) in pieces.iter() {
+                let side = if *on_left { 1 } else { -1 };
+                *balance.entry(piece.start).or_default() += side;
+                *balance.entry(piece.end).or_default() -= side;
+            }
+            if balance.values().all(|&sum| sum == 0) {
+                return;
+            }
+            let leads_nowhere = |k: &usize| {
+                let (piece, on_left, _) = &pieces[*k];
+                let side = if *on_left { 1 } else { -1 };
+                let open = balance[&piece.start] * side > 0 || balance[&piece.end] * side < 0;
+                let near = |other: &usize| other != k && self.is_near(piece, &pieces[*other].0);
+                open && (0..pieces.len()).any(|other| near(&other))
+            };
+            let Some(found) = (0..pieces.len()).find(leads_nowhere) else { return };
+            pieces.remove(found);
         }
+    }
+
+    /// Whether the middle of a piece lies on another, as far as vertices are told apart.
+    fn is_near(&self, piece: &Piece, other: &Piece) -> bool {
         let near = 10.0 * SAME_VERTEX * self.size;
         let middle = self.eval(piece.curve, piece.part(0.5)).0;
         let eval = |t: f64| self.eval(other.curve, t);
         chords(&eval, other.from, other.to)
             .iter()
             .any(|chord| (eval(nearest(&eval, middle, chord.from, chord.to)).0 - middle).norm() <= near)
+    }
+
+    /// Whether a piece runs along another between the same vertices.
+    fn along(&self, piece: &Piece, other: &Piece) -> bool {
+        let same = [piece.start, piece.end] == [other.start, other.end];
+        if !same && [piece.end, piece.start] != [other.start, other.end] {
+            return false;
+        }
+        self.is_near(piece, other)
     }
 
     /// A piece as a boundary arc, run so that the inside is on its left.
@@ -561,7 +593,7 @@ impl<'a> Tracer<'a> {
 
 /// Joins pieces of one curve that follow each other where nothing else ends.
 fn join(pieces: &mut Vec<(Piece, bool, Look)>) {
-    let mut degree: std::collections::HashMap<usize, usize> = std::collections::HashMap::new();
+    let mut degree: HashMap<usize, usize> = HashMap::new();
     for (piece, _, _) in pieces.iter() {
         *degree.entry(piece.start).or_default() += 1;
         *degree.entry(piece.end).or_default() += 1;
