@@ -91,11 +91,13 @@ pub mod eliminate;
 pub mod exchange;
 pub mod linkage;
 pub mod manipulator;
+pub mod plane;
 #[cfg(feature = "plot")]
 pub mod plot;
 pub mod roots;
 pub mod solve;
 pub mod spatial;
+pub mod workspace;
 
 pub use certify::Verdict;
 pub use linkage::{
