@@ -1,5 +1,6 @@
 //! The answer to `workspace` as a JSON document, and its loops as CSV. Angles in radians.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use serde::Serialize;
@@ -7,7 +8,7 @@ use serde::Serialize;
 use super::triad_file::DyadEntry;
 use crate::plane::PhiRange;
 use crate::workspace::{
-    ArcCurve, BoundaryArc, CouplerArc, Isolated, Membership, Region, Workspace, WorkspaceKind, WorkspaceModes,
+    ArcCurve, BoundaryArc, CouplerArc, Isolated, Membership, Region, Stack, Workspace, WorkspaceKind, WorkspaceModes,
 };
 
 /// A workspace: loops of boundary, measures, isolated parts; membership of points where some were asked.
@@ -33,6 +34,42 @@ pub struct WorkspaceReport {
     assembly: Option<[f64; 3]>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     points: Vec<PointReport>,
+    /// Other workspaces asked for with it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub overlays: Vec<WorkspaceReport>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stack: Option<StackReport>,
+    /// The area's derivatives by numbers of the design, angles in radians.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub gradient: BTreeMap<String, f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    optimum: Option<OptimumReport>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct StackReport {
+    from: f64,
+    to: f64,
+    volume: f64,
+    volume_error: f64,
+    slices: Vec<SliceReport>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct SliceReport {
+    phi: f64,
+    #[serde(flatten)]
+    region: RegionReport,
+}
+
+/// The best design found, angles in radians.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct OptimumReport {
+    values: BTreeMap<String, f64>,
+    area: f64,
+    gradient: BTreeMap<String, f64>,
+    area_before: f64,
+    evaluations: usize,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -136,7 +173,43 @@ impl WorkspaceReport {
             separating: workspace.separating.iter().map(ArcReport::from).collect(),
             assembly,
             points: points.iter().map(point).collect(),
+            overlays: Vec::new(),
+            stack: None,
+            gradient: BTreeMap::new(),
+            optimum: None,
         }
+    }
+
+    /// The report with slices over a range of orientations.
+    #[must_use]
+    pub fn with_stack(mut self, stack: &Stack) -> Self {
+        let slice = |slice: &Workspace| match slice.kind {
+            WorkspaceKind::Constant { phi } => Some(SliceReport { phi, region: RegionReport::from(&slice.region) }),
+            _ => None,
+        };
+        self.stack = Some(StackReport {
+            from: stack.range.from,
+            to: stack.range.from + stack.range.width,
+            volume: stack.volume,
+            volume_error: stack.volume_error,
+            slices: stack.slices.iter().filter_map(slice).collect(),
+        });
+        self
+    }
+
+    /// The report with the best design found, `names` what was chosen.
+    #[cfg(feature = "optimise")]
+    #[must_use]
+    pub fn with_optimum(mut self, names: &[String], best: &crate::workspace::Optimum) -> Self {
+        let map = |values: &[f64]| names.iter().cloned().zip(values.iter().copied()).collect();
+        self.optimum = Some(OptimumReport {
+            values: map(&best.values),
+            area: best.area,
+            gradient: map(&best.gradient),
+            area_before: best.area_before,
+            evaluations: best.evaluations,
+        });
+        self
     }
 
     /// The report as a JSON document, ending in a newline.

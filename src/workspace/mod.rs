@@ -20,12 +20,22 @@
 //! the maximal, inclusive, total and dextrous workspaces are mended here (derivations/leg_reach.rs).
 
 mod boundary;
+mod gradient;
 mod leg;
 mod limits;
+#[cfg(feature = "optimise")]
+mod optimise;
 mod reach;
 mod region;
+mod stack;
+mod stub;
+mod void;
 
 pub use boundary::{ArcCurve, BoundaryArc, CouplerArc};
 pub use limits::{ActiveLimit, Limit, LimitCause, WorkspaceError, WorkspaceModes};
 pub use reach::{Membership, Reach};
 pub use region::{Isolated, Loop, Region, Workspace, WorkspaceKind};
+#[cfg(feature = "optimise")]
+pub use optimise::{DesignChoice, Optimum};
+pub use stack::Stack;
+pub use void::StrokeVoid;

@@ -5,7 +5,6 @@
 //! were tried: areas have several hills, and nothing here proves that the highest was found.
 
 use std::cell::RefCell;
-use std::f64::consts::FRAC_PI_2;
 
 use argmin::core::{CostFunction, Error, Executor, Gradient};
 use argmin::solver::linesearch::MoreThuenteLineSearch;
@@ -228,6 +227,8 @@ impl Gradient for &Hill<'_> {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::FRAC_PI_2;
+
     use super::*;
 
     #[test]

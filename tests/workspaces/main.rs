@@ -2,8 +2,11 @@
 //!
 //! `ASSUR_TEST_SCALE` multiplies how many random manipulators are asked.
 
+mod golden;
+mod membership;
 mod models;
 mod oracle;
 #[path = "../random/mod.rs"]
 mod random;
+mod regions;
 mod selfcheck;

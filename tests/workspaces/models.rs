@@ -121,6 +121,8 @@ pub fn random_case(number: u64, trouble: Trouble) -> Case {
     let mut legs = Vec::new();
     let shape: Vec<[f64; 2]> = (0..3).map(|_| [r.between(-4.0, 4.0), r.between(-4.0, 4.0)]).collect();
     let ratio = r.between(0.2, 0.9);
+    // Small platforms have dextrous workspaces.
+    let small = if r.between(0.0, 1.0) < 0.5 { 0.2 } else { 1.0 };
     for (k, letter) in types.into_iter().enumerate() {
         let around = turn + TAU * k as f64 / 3.0;
         let (mut a, mut b) = match trouble {
@@ -217,7 +219,7 @@ pub fn random_case(number: u64, trouble: Trouble) -> Case {
     robot.reference = match trouble {
         Trouble::ReferenceInPivot => robot.legs[(number % 3) as usize].platform.at,
         Trouble::Symmetric | Trouble::SimilarPlatform => Vector2::zeros(),
-        _ => Vector2::new(r.between(-1.0, 1.0), r.between(-1.0, 1.0)),
+        _ => Vector2::new(r.between(-1.0, 1.0), r.between(-1.0, 1.0)) * small,
     };
     let one = trouble == Trouble::OneMode || trouble == Trouble::PassiveRanges && number % 4 < 2;
     let bits = (r.between(0.0, 8.0)) as u32;
@@ -239,4 +241,9 @@ pub fn questions(number: u64) -> [Question; 5] {
         Question { from, width: width.min(1.0), every: true },
         Question::dextrous(),
     ]
+}
+
+/// How many times the usual number of random manipulators are asked.
+pub fn scale() -> u64 {
+    std::env::var("ASSUR_TEST_SCALE").ok().and_then(|scale| scale.parse().ok()).unwrap_or(1).max(1)
 }

@@ -18,7 +18,7 @@ use crate::tables::{ALARM, POSE_DIGITS, SIDE_DIGITS, STRONG, digits, heading, li
 
 /// Cells of a map along each side.
 const MAP_CELLS: usize = 80;
-fn about(file: &Path, error: impl std::fmt::Display) -> Failure {
+pub(crate) fn about(file: &Path, error: impl std::fmt::Display) -> Failure {
     Failure::About(file.display().to_string(), error.to_string())
 }
 
@@ -38,7 +38,7 @@ fn pose_of(values: &[f64], unit: AngleUnit, file: &Path) -> Result<Pose, Failure
     Ok(Pose::new(x, y, unit.to_rad(phi)))
 }
 
-fn title(model: &ModelFile) -> String {
+pub(crate) fn title(model: &ModelFile) -> String {
     let robot = &model.manipulator;
     if robot.name.is_empty() { robot.family() } else { robot.name.clone() }
 }

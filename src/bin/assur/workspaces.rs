@@ -15,8 +15,9 @@ use assur::{DesignKey, Manipulator, Pose};
 use clap::{Args, ValueEnum};
 
 use crate::args::{Rows, Shown};
+use crate::kinematics::{about, title};
 use crate::output::{self, Failure, Files};
-use crate::tables::{ALARM, SIDE_DIGITS, STRONG, digits, heading, line, table, title};
+use crate::tables::{ALARM, SIDE_DIGITS, STRONG, digits, heading, line, table};
 
 /// Digits of areas and of places.
 const AREA_DIGITS: i32 = 12;
@@ -104,10 +105,6 @@ pub(crate) struct SweepArgs {
     /// The form of the output where its name does not tell.
     #[arg(long, value_enum)]
     format: Option<Rows>,
-}
-
-fn about(file: &Path, error: impl std::fmt::Display) -> Failure {
-    Failure::About(file.display().to_string(), error.to_string())
 }
 
 /// The kind that a name and its angles stand for.
