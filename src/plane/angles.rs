@@ -261,7 +261,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn set() -> impl Strategy<Value = AngleSet> {
-        prop::collection::vec((-7.0..7.0f64, prop_oneof![0.0..3.0f64, Just(0.0), Just(PI)]), 0..4).prop_map(|arcs| {
+        prop::collection::vec((-7.0..7.0f64, prop_oneof![0.0..3.0f64, Just(0.0), Just(PI)]), 0..4).prop_map(|arcs: Vec<(f64, f64)>| {
             arcs.iter().fold(AngleSet::empty(), |set, &(from, width)| set.union(&AngleSet::arc(from, width)))
         })
     }

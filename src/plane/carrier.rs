@@ -182,8 +182,8 @@ mod tests {
             other => panic!("{other:?}"),
         };
         assert!((touch(&circle(0.0, 1.0), &circle(3.0, 2.0 + 1e-14)) - Vector2::x()).norm() < 1e-13);
-        assert!((touch(&circle(0.0, 3.0), &circle(1.0, 2.0 - 1e-14)) - 3.0 * Vector2::x()).norm() < 1e-13);
-        assert!((touch(&circle(1.0, 2.0), &circle(0.0, 3.0)) - 3.0 * Vector2::x()).norm() < 1e-13);
+        assert!((touch(&circle(0.0, 3.0), &circle(1.0, 2.0 - 1e-14)) - Vector2::new(3.0, 0.0)).norm() < 1e-13);
+        assert!((touch(&circle(1.0, 2.0), &circle(0.0, 3.0)) - Vector2::new(3.0, 0.0)).norm() < 1e-13);
         let line = Carrier::Line { point: Vector2::new(1.0, 5.0), direction: Vector2::y() };
         assert!((touch(&circle(0.0, 1.0), &line) - Vector2::x()).norm() < 1e-13);
         assert_eq!(circle(0.0, 1.0).meet(&circle(1e-14, 1.0), 1e-12), Meeting::Same);

@@ -101,7 +101,7 @@ impl BoundaryArc {
                 // along the middle.
                 let area = 0.5 * radius * radius * turn_minus_sine(turn);
                 let (sin, cos) = (0.5 * (start_angle + end_angle)).sin_cos();
-                let lever = 2.0 / 3.0 * radius.powi(3) * (0.5 * turn).sin().powi(3);
+                let lever = 2.0 / 3.0 * radius.powi(3) * (0.5_f64 * turn).sin().powi(3);
                 out.area += area;
                 out.moment[0] += c.x * area + cos * lever;
                 out.moment[1] += c.y * area + sin * lever;

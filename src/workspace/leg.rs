@@ -97,6 +97,9 @@ impl LegReach {
                 let slide = seen_from(turns[0], leg.links[0].at) + leg.links[1].at;
                 out.chain = Chain::Rpr { offset: slide.y };
                 out.stroke = stroke(1).map(|q| q + slide.x);
+                // A range of one sign rules the other mode out.
+                out.modes[0] &= out.stroke[1] >= 0.0;
+                out.modes[1] &= out.stroke[0] < 0.0;
                 out.base_sector = forward(0, product(base, turns[0]));
                 out.platform_sector = backward(2, product(platform, conjugate(turns[1])));
             }

@@ -19,21 +19,26 @@
 //! It covers legs RPR, RRR and PRR, in any mixture, whichever joints are driven. Sources: Merlet, Gosselin, Mouly 1998, whose rules for
 //! the maximal, inclusive, total and dextrous workspaces are mended here (derivations/leg_reach.rs).
 
+mod arrangement;
 mod boundary;
+mod constant;
 mod gradient;
 mod leg;
 mod limits;
+mod membership;
 #[cfg(feature = "optimise")]
 mod optimise;
 mod reach;
 mod region;
 mod stack;
 mod stub;
+mod total;
 mod void;
 
 pub use boundary::{ArcCurve, BoundaryArc, CouplerArc};
 pub use limits::{ActiveLimit, Limit, LimitCause, WorkspaceError, WorkspaceModes};
-pub use reach::{Membership, Reach};
+pub use membership::Membership;
+pub use reach::Reach;
 pub use region::{Isolated, Loop, Region, Workspace, WorkspaceKind};
 #[cfg(feature = "optimise")]
 pub use optimise::{DesignChoice, Optimum};

@@ -1,31 +1,22 @@
 //! A manipulator's limits, ready for questions about places.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use nalgebra::Vector2;
 
 use super::leg::{Chain, LegReach};
-use super::limits::{ActiveLimit, Limit, WorkspaceError, WorkspaceModes};
+use super::limits::{Limit, WorkspaceError, WorkspaceModes};
+use super::membership::Edge;
 use super::region::WorkspaceKind;
 use crate::manipulator::Manipulator;
-use crate::plane::{AngleSet, direction};
-
-/// How a place stands to a workspace.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Membership {
-    /// Whether it belongs to it.
-    pub inside: bool,
-    /// In length units: the largest over the allowed orientations (for total and dextrous the smallest) of the smallest slack over
-    /// all limits; negative outside.
-    pub margin: f64,
-    /// The limit that leaves no more.
-    pub binding: Option<ActiveLimit>,
-}
+use crate::plane::{AngleSet, PhiRange, direction};
 
 /// The limits of a manipulator in the frame of its reference point.
 #[derive(Clone, Debug)]
 pub struct Reach {
     pub(super) legs: Vec<LegReach>,
+    /// Per leg the edge that does not move with the platform.
+    pub(super) edges: Vec<Vec<Edge>>,
     /// Largest length of the mechanism: the scale of roundings.
     pub(super) size: f64,
 }
@@ -68,7 +59,8 @@ impl Manipulator {
             };
             size = size.max(own).max(leg.a.norm()).max(leg.b.norm()).max(if reach.is_finite() { reach } else { 0.0 });
         }
-        Ok(Reach { legs, size })
+        let edges = legs.iter().map(|leg| leg.fixed_edges(size)).collect();
+        Ok(Reach { legs, edges, size })
     }
 }
 
@@ -105,20 +97,21 @@ impl Reach {
         self.legs[leg].orientations(at, TOUCH * self.size)
     }
 
-    /// Whether a place belongs to a workspace, with its margin.
-    pub fn membership(&self, kind: &WorkspaceKind, at: Vector2<f64>) -> Membership {
-        Membership { inside: self.contains(kind, at), margin: f64::NAN, binding: None }
-    }
-
     /// Whether a place belongs to a workspace.
     pub fn contains(&self, kind: &WorkspaceKind, at: Vector2<f64>) -> bool {
         match kind {
             WorkspaceKind::Constant { phi } => self.allows(at, *phi),
             WorkspaceKind::Maximal => !self.orientations(at).is_empty(),
             WorkspaceKind::Inclusive(range) => !self.orientations(at).intersect(&range.set()).is_empty(),
-            WorkspaceKind::Total(range) => self.orientations(at).covers(range, 0.0),
-            WorkspaceKind::Dextrous => self.orientations(at).is_full(),
+            WorkspaceKind::Total(range) if range.is_full() => self.allows_all(at, None),
+            WorkspaceKind::Total(range) => self.allows_all(at, Some(range)),
+            WorkspaceKind::Dextrous => self.allows_all(at, None),
         }
+    }
+
+    fn allows_all(&self, at: Vector2<f64>, range: Option<&PhiRange>) -> bool {
+        let tol = TOUCH * self.size;
+        self.legs.iter().all(|leg| leg.allows_all(at, range, tol, self.size))
     }
 
     /// Whether every leg allows the pose (C, phi), phi in radians.
@@ -138,7 +131,7 @@ impl LegReach {
         self.allows(at + crate::plane::product(turn, self.b), turn, tol)
     }
 
-    fn orientations(&self, at: Vector2<f64>, tol: f64) -> AngleSet {
+    pub(super) fn orientations(&self, at: Vector2<f64>, tol: f64) -> AngleSet {
         if let Some([low, high]) = self.ring {
             return self.ring_orientations(low, high, at, tol);
         }
@@ -148,16 +141,23 @@ impl LegReach {
         let Some(&first) = ends.first() else {
             return if self.allows_pose(at, direction(0.0), tol) { AngleSet::full() } else { AngleSet::empty() };
         };
-        let mut set = AngleSet::empty();
-        let next = ends.iter().skip(1).copied().chain([first + TAU]);
-        for (&from, to) in ends.iter().zip(next) {
-            if self.allows_pose(at, direction(0.5 * (from + to)), tol) {
-                set = set.union(&AngleSet::arc(from, to - from));
-            } else if self.allows_pose(at, direction(from), tol) {
-                set = set.union(&AngleSet::arc(from, 0.0));
+        // From one end to the next the leg allows all or nothing; across pi in two pieces that share the verdict.
+        let mut pieces: Vec<[f64; 2]> = Vec::with_capacity(ends.len() + 1);
+        let last = ends[ends.len() - 1];
+        let outer = self.allows_pose(at, direction(0.5 * (last + first + TAU)), tol);
+        if outer {
+            pieces.push([-PI, first]);
+        }
+        for (k, &from) in ends.iter().enumerate() {
+            let to = ends.get(k + 1).copied();
+            let beyond = to.map_or(outer, |to| self.allows_pose(at, direction(0.5 * (from + to)), tol));
+            if beyond {
+                pieces.push([from, to.unwrap_or(PI)]);
+            } else if pieces.last().is_none_or(|last| last[1] < from) && self.allows_pose(at, direction(from), tol) {
+                pieces.push([from, from]);
             }
         }
-        set
+        AngleSet::from_pieces(pieces)
     }
 
     /// `|psi|` between the values at the two radii, psi the angle from C - A to the platform arm.
@@ -178,11 +178,11 @@ impl LegReach {
         }
         let middle = away.y.atan2(away.x) - self.b.y.atan2(self.b.x);
         let inner = if d + arm <= high { 0.0 } else { psi(high) };
-        let outer = if (d - arm).abs() >= low { std::f64::consts::PI } else { psi(low) };
+        let outer = if (d - arm).abs() >= low { PI } else { psi(low) };
         if inner == 0.0 {
             return AngleSet::arc(middle - outer, 2.0 * outer);
         }
-        if outer == std::f64::consts::PI {
+        if outer == PI {
             return AngleSet::arc(middle + inner, TAU - 2.0 * inner);
         }
         AngleSet::arc(middle + inner, outer - inner).union(&AngleSet::arc(middle - outer, outer - inner))

@@ -70,7 +70,7 @@ fn points_are_inside_where_brute_force_finds_a_way() {
             continue;
         };
         let mut r = Random::new(31 + number);
-        for (index, question) in questions(number).into_iter().enumerate() {
+        for (index, question) in questions(&case, number).into_iter().enumerate() {
             let kind = kind_of(question, index);
             for at in points(&mut r, &oracle, question) {
                 let found = reach.contains(&kind, at.into());
@@ -144,7 +144,7 @@ fn margins_are_the_extreme_slacks() {
         let oracle = Oracle::of(&case.robot, case.modes);
         let Ok(reach) = case.robot.reach(&modes_of(&case)) else { continue };
         let mut r = Random::new(99 + number);
-        for (index, question) in questions(number).into_iter().enumerate() {
+        for (index, question) in questions(&case, number).into_iter().enumerate() {
             for _ in 0..4 {
                 let at = [r.between(-oracle.size, oracle.size), r.between(-oracle.size, oracle.size)];
                 let expected = oracle.extreme(at, question, 4 * SAMPLES, f64::INFINITY);

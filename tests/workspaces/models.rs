@@ -6,7 +6,7 @@ use assur::nalgebra::Vector2;
 use assur::{Leg, Manipulator};
 use serde_json::Value;
 
-use crate::oracle::Question;
+use crate::oracle::{Oracle, Question};
 use crate::random::Random;
 
 /// Published and reference cases: the data file, read once a test.
@@ -157,7 +157,7 @@ pub fn random_case(number: u64, trouble: Trouble) -> Case {
                 1 => low = distance,
                 _ => high = 2.0 * distance,
             }
-            high = high.max(low);
+            high = high.max(low + 0.1);
         }
         if trouble == Trouble::Symmetric {
             (low, high) = (2.0, 6.0);
@@ -228,17 +228,27 @@ pub fn random_case(number: u64, trouble: Trouble) -> Case {
     Case { robot, modes, kind: format!("{types:?} {trouble:?} number {number}") }
 }
 
-/// The five kinds asked of a case.
-pub fn questions(number: u64) -> [Question; 5] {
+/// The five kinds asked of a case: about an orientation that it can have somewhere.
+pub fn questions(case: &Case, number: u64) -> [Question; 5] {
     let mut r = Random::new(0xface + number);
-    let from = r.between(-PI, PI);
+    let oracle = Oracle::of(&case.robot, case.modes);
+    let mut from = r.between(-PI, PI);
+    for _ in 0..4000 {
+        let at = [r.between(-oracle.size, oracle.size), r.between(-oracle.size, oracle.size)];
+        let phi = r.between(-PI, PI);
+        if oracle.slack(at, phi) > 0.0 {
+            from = phi;
+            break;
+        }
+    }
     // Some ranges pass half a turn, some are short.
     let width = if number.is_multiple_of(3) { r.between(3.0, 6.0) } else { r.between(0.1, 1.5) };
+    let short = r.between(0.02, 0.3);
     [
         Question::constant(from),
         Question::maximal(),
-        Question { from, width, every: false },
-        Question { from, width: width.min(1.0), every: true },
+        Question { from: from - 0.5 * width, width, every: false },
+        Question { from: from - 0.5 * short, width: short, every: true },
         Question::dextrous(),
     ]
 }

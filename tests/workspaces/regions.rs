@@ -189,7 +189,7 @@ fn check(kinds: std::ops::Range<usize>, cases: u64) {
         let oracle = Oracle::of(&case.robot, case.modes);
         let mut r = Random::new(131 + number);
         for index in kinds.clone() {
-            let question = questions(number)[index];
+            let question = questions(&case, number)[index];
             let kind = kind_of(question, index);
             asked += 1;
             let workspace = match case.robot.workspace(&kind, &modes_of(&case)) {
@@ -264,7 +264,7 @@ fn moving_turning_scaling_and_relabelling_change_nothing() {
             continue;
         }
         let case = random_case(number, trouble);
-        for (index, question) in questions(number).into_iter().enumerate() {
+        for (index, question) in questions(&case, number).into_iter().enumerate() {
             let kind = kind_of(question, index);
             let Ok(here) = case.robot.workspace(&kind, &modes_of(&case)) else { continue };
             let turn = 0.7;
