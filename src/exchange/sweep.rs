@@ -284,9 +284,15 @@ impl Sweep {
         let regions: Vec<Region> = self
             .kinds
             .iter()
-            .map(|kind| robot.workspace(kind, &self.modes).map(|workspace| workspace.region))
-            .collect::<Result<_, _>>()
-            .map_err(|error| error.to_string())?;
+            .map(|kind| {
+                let region = robot.workspace(kind, &self.modes).map_err(|error| error.to_string())?.region;
+                let open = region.unclosed.len();
+                if open > 0 {
+                    return Err(format!("{}: {open} pieces of boundary could not be joined to loops", kind.name()));
+                }
+                Ok(region)
+            })
+            .collect::<Result<_, String>>()?;
         Ok(self.measures.iter().zip(&self.kind_of).map(|(measure, &kind)| measure.of(&regions[kind])).collect())
     }
 }

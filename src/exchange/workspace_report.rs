@@ -83,6 +83,9 @@ struct RegionReport {
     holes: usize,
     loops: Vec<LoopReport>,
     isolated: Vec<IsolatedReport>,
+    /// Pieces that could not be joined to loops, where digits ran out; the status is then `undecided`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    unclosed: Vec<ArcReport>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -168,7 +171,7 @@ impl WorkspaceReport {
             from: range.map(|range: PhiRange| range.from),
             to: range.map(|range| range.from + range.width),
             mode: modes.to_string(),
-            status: "complete",
+            status: if workspace.region.unclosed.is_empty() { "complete" } else { "undecided" },
             region: RegionReport::from(&workspace.region),
             separating: workspace.separating.iter().map(ArcReport::from).collect(),
             assembly,
@@ -239,6 +242,7 @@ impl From<&Region> for RegionReport {
                 .map(|one| LoopReport { area: one.area, arcs: one.arcs.iter().map(ArcReport::from).collect() })
                 .collect(),
             isolated: region.isolated.iter().map(isolated).collect(),
+            unclosed: region.unclosed.iter().map(ArcReport::from).collect(),
         }
     }
 }

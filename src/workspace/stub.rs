@@ -7,9 +7,6 @@ impl Reach {
     pub fn assembly(&self, pose: &crate::linkage::Pose) -> Result<Workspace, WorkspaceError> {
         unimplemented!()
     }
-    pub fn only(&self, leg: usize) -> Reach {
-        Reach { legs: vec![self.legs[leg].clone()], size: self.size }
-    }
 }
 #[allow(missing_docs, unused)]
 impl CouplerArc {

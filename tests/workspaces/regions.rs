@@ -100,6 +100,9 @@ pub fn faults(case: &Case, oracle: &Oracle, question: Question, region: &Region,
             }
         }
     }
+    for arc in &region.unclosed {
+        out.push(format!("not joined to a loop: {:?} to {:?} {:?}", arc.start, arc.end, arc.active));
+    }
     let polygons = Polygons::of(region);
     let area = polygons.area();
     let room = 1e-4 * region.perimeter * size.min(region.perimeter) + 1e-9 * size * size;

@@ -330,7 +330,11 @@ fn kind_name(kind: &WorkspaceKind, unit: AngleUnit) -> String {
 
 fn measures(text: &mut String, workspace: &Workspace) {
     let region = &workspace.region;
-    if region.loops.is_empty() && region.isolated.is_empty() {
+    if !region.unclosed.is_empty() {
+        let count = region.unclosed.len();
+        line(text, format_args!("{ALARM}undecided{ALARM:#}: {count} pieces of boundary could not be joined to loops"));
+    }
+    if region.is_empty() {
         line(text, format_args!("{ALARM}empty{ALARM:#}"));
         return;
     }
