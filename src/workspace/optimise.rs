@@ -1,14 +1,12 @@
 //! Design numbers between bounds for which a workspace is largest.
 //!
-//! Evenly spread designs are measured; from the best of them the method L-BFGS climbs by exact gradients, each number `x` between bounds `a` and `b` written
-//! as `a + (b - a)(1 + sin u)/2`. What is returned is the best design ever measured. There may be a better one between the designs that
-//! were tried: areas have several hills, and nothing here proves that the highest was found.
+//! Evenly spread designs are measured; from the best of them sequential quadratic programming (Kraft 1994, as in SciPy and NLopt) climbs by exact gradients within the
+//! bounds. What is returned is the best design ever measured. There may be a better one between the designs that were tried: areas have several
+//! hills, and nothing here proves that the highest was found.
 
 use std::cell::RefCell;
 
-use argmin::core::{CostFunction, Error, Executor, Gradient};
-use argmin::solver::linesearch::MoreThuenteLineSearch;
-use argmin::solver::quasinewton::LBFGS;
+use slsqp::{Func, StopTols, minimize};
 
 use super::limits::{WorkspaceError, WorkspaceModes};
 use super::region::WorkspaceKind;
@@ -42,10 +40,10 @@ pub struct Optimum {
 const SPREAD: [usize; 4] = [33, 100, 200, 300];
 /// How many of the best are climbed from.
 const CLIMBS: usize = 4;
-/// Steps of a climb.
-const STEPS: u64 = 60;
-/// Steps that L-BFGS remembers.
-const MEMORY: usize = 7;
+/// Designs measured on one climb, at most.
+const CLIMB: usize = 80;
+/// A climb ends where the area changes by less than this part of it.
+const LEVEL: f64 = 1e-13;
 /// The first coordinates of Halton's sequence: their bases. More choices than these share them, shifted.
 const BASES: [u32; 8] = [2, 3, 5, 7, 11, 13, 17, 19];
 
@@ -84,7 +82,6 @@ impl Manipulator {
             kind,
             modes,
             choices,
-            scale: RefCell::new(1.0),
             best: RefCell::new((f64::NEG_INFINITY, given.clone())),
             evaluations: RefCell::new(1),
         };
@@ -105,16 +102,14 @@ impl Manipulator {
         starts.sort_by(|one, other| other.0.total_cmp(&one.0));
         let highest = starts.first().map_or(0.0, |start| start.0);
         if highest > 0.0 {
-            *hill.scale.borrow_mut() = highest;
-            for (area, values) in starts.into_iter().take(CLIMBS).filter(|start| start.0 > 0.0) {
-                let _ = area;
-                let angles: Vec<f64> = values.iter().zip(choices).map(|(x, choice)| angle(*x, choice.bounds)).collect();
-                let solver = LBFGS::new(MoreThuenteLineSearch::new(), MEMORY);
+            let bounds = vec![(0.0, 1.0); choices.len()];
+            let none: [&dyn Func<()>; 0] = [];
+            for (_, values) in starts.into_iter().take(CLIMBS).filter(|start| start.0 > 0.0) {
+                let parts: Vec<f64> = values.iter().zip(choices).map(|(x, choice)| part(*x, choice.bounds)).collect();
+                let fall = |parts: &[f64], gradient: Option<&mut [f64]>, (): &mut ()| hill.fall(parts, gradient, highest);
+                let level = StopTols { ftol_rel: LEVEL, ..StopTols::default() };
                 // A climb that gets stuck at a kink ends with an error; what it found on the way is kept all the same.
-                let _ = Executor::new(&hill, solver)
-                    .configure(|state| state.param(angles).max_iters(STEPS))
-                    .timer(false)
-                    .run();
+                let _ = minimize(fall, &parts, &bounds, &none, (), CLIMB, Some(level));
             }
         }
         let values = hill.best.borrow().1.clone();
@@ -146,13 +141,10 @@ fn spread(index: usize, choice: usize, choices: usize, count: usize) -> f64 {
     (sum + turns).fract()
 }
 
-/// The angle that stands for a value between bounds.
-fn angle(value: f64, [low, high]: [f64; 2]) -> f64 {
-    if high == low { 0.0 } else { (2.0 * (value - low) / (high - low) - 1.0).clamp(-1.0, 1.0).asin() * INSIDE }
+/// Where between its bounds a value lies, from 0 to 1.
+fn part(value: f64, [low, high]: [f64; 2]) -> f64 {
+    if high == low { 0.0 } else { ((value - low) / (high - low)).clamp(0.0, 1.0) }
 }
-
-/// A climb starts a little inside its bounds: on them the sine is flat and nothing would move.
-const INSIDE: f64 = 0.98;
 
 /// The area over the choices, with the best design seen.
 struct Hill<'a> {
@@ -160,19 +152,18 @@ struct Hill<'a> {
     kind: &'a WorkspaceKind,
     modes: &'a WorkspaceModes,
     choices: &'a [DesignChoice],
-    scale: RefCell<f64>,
     best: RefCell<(f64, Vec<f64>)>,
     evaluations: RefCell<usize>,
 }
 
 impl Hill<'_> {
-    fn values(&self, angles: &[f64]) -> Vec<f64> {
-        let value = |(u, choice): (&f64, &DesignChoice)| {
+    fn values(&self, parts: &[f64]) -> Vec<f64> {
+        let value = |(part, choice): (&f64, &DesignChoice)| {
             let [low, high] = choice.bounds;
-            // At the top of the sine the bound itself, not a rounding beside it.
-            if u.sin() >= 1.0 { high } else { low + (high - low) * 0.5 * (1.0 + u.sin()) }
+            // Both bounds exactly.
+            if *part >= 1.0 { high } else { low + (high - low) * part.max(0.0) }
         };
-        angles.iter().zip(self.choices).map(value).collect()
+        parts.iter().zip(self.choices).map(value).collect()
     }
 
     fn design(&self, values: &[f64]) -> Option<Manipulator> {
@@ -194,41 +185,28 @@ impl Hill<'_> {
         }
         area
     }
-}
 
-impl CostFunction for &Hill<'_> {
-    type Param = Vec<f64>;
-    type Output = f64;
-
-    fn cost(&self, angles: &Vec<f64>) -> Result<f64, Error> {
-        Ok(-self.area(&self.values(angles)) / *self.scale.borrow())
-    }
-}
-
-impl Gradient for &Hill<'_> {
-    type Param = Vec<f64>;
-    type Gradient = Vec<f64>;
-
-    fn gradient(&self, angles: &Vec<f64>) -> Result<Vec<f64>, Error> {
-        let flat = || vec![0.0; angles.len()];
-        let Some(robot) = self.design(&self.values(angles)) else { return Ok(flat()) };
-        let Ok(workspace) = robot.workspace(self.kind, self.modes) else { return Ok(flat()) };
-        let scale = *self.scale.borrow();
-        self.choices
-            .iter()
-            .zip(angles)
-            .map(|(choice, u)| {
-                let slope: f64 = robot.area_gradient(&workspace, self.modes, &choice.numbers)?.iter().sum();
-                Ok(-slope * 0.5 * (choice.bounds[1] - choice.bounds[0]) * u.cos() / scale)
-            })
-            .collect()
+    /// The area turned upside down over the highest of the start, and its gradient by the parts; what climbs here falls there.
+    fn fall(&self, parts: &[f64], gradient: Option<&mut [f64]>, highest: f64) -> f64 {
+        let values = self.values(parts);
+        if let Some(gradient) = gradient {
+            gradient.fill(0.0);
+            let design = self.design(&values);
+            let workspace = design.as_ref().and_then(|robot| robot.workspace(self.kind, self.modes).ok());
+            if let (Some(robot), Some(workspace)) = (design, workspace) {
+                for (slope, choice) in gradient.iter_mut().zip(self.choices) {
+                    let by_number: f64 =
+                        robot.area_gradient(&workspace, self.modes, &choice.numbers).map_or(0.0, |all| all.iter().sum());
+                    *slope = -by_number * (choice.bounds[1] - choice.bounds[0]) / highest;
+                }
+            }
+        }
+        -self.area(&values) / highest
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::FRAC_PI_2;
-
     use super::*;
 
     #[test]
@@ -239,6 +217,6 @@ mod tests {
             let inside = values.iter().filter(|x| (low..low + 0.25).contains(*x)).count();
             assert!((14..=18).contains(&inside), "{inside} of 64 in a quarter");
         }
-        assert!((angle(5.0, [2.0, 8.0])).abs() < 1e-15 && angle(8.0, [2.0, 8.0]) < FRAC_PI_2);
+        assert_eq!([part(5.0, [2.0, 8.0]), part(9.0, [2.0, 8.0]), part(1.0, [1.0, 1.0])], [0.5, 1.0, 0.0]);
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! `ASSUR_TEST_SCALE` multiplies how many random manipulators are asked.
 
+mod design;
 mod golden;
 mod membership;
 mod models;
