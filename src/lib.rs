@@ -110,8 +110,8 @@ pub use linkage::{
 pub use manipulator::{
     AssemblyModes, DescriptionError, DesignCoordinate, DesignError, DesignKey, DesignNumber, DesignPart, FamilyError, FollowedPath, InverseSpecial, JointKind, JointsError, JointsReason,
     KinematicsError, Leg, LegLocus, LockError, LockedGroup, LocusError, Manipulator, ManipulatorMode, MapQuantity,
-    ModeChoice, ModesBatch, PathError, PathEvent, PathEventKind, PathRow, PathSettings, Placement, PlaneCurve,
-    PlaneMap, PlaneWindow, Reading, Remark, SingularMatrix, Singularity, SingularityKind, SingularityLocus,
+    ModeChoice, ModesBatch, ModesPlaces, PathError, PathEvent, PathEventKind, PathRow, PathSettings, Placement,
+    PlaneCurve, PlaneMap, PlaneWindow, Reading, Remark, SingularMatrix, Singularity, SingularityKind, SingularityLocus,
     Unreachable, Velocity, Violation, WorkingMode, WorkingModes,
 };
 pub use solve::{

@@ -21,7 +21,7 @@ mod trace;
 mod velocity;
 mod watch;
 
-pub use batch::ModesBatch;
+pub use batch::{ModesBatch, ModesPlaces};
 pub use catalogue::FamilyError;
 pub use describe::{DescriptionError, JointKind, JointsError, JointsReason, Leg, Manipulator, Placement};
 pub use design::{DesignCoordinate, DesignError, DesignKey, DesignNumber, DesignPart};

@@ -132,8 +132,7 @@ impl AngleSet {
     /// Whether an angle, any number of turns away, is in it.
     pub fn contains(&self, angle: f64) -> bool {
         let angle = principal(angle);
-        self.is_full()
-            || self.intervals.iter().any(|&[from, to]| (from <= angle && angle <= to) || angle + TAU <= to)
+        self.is_full() || self.intervals.iter().any(|&[from, to]| (from <= angle && angle <= to) || angle + TAU <= to)
     }
 
     /// Angles in both.
@@ -234,12 +233,10 @@ impl AngleSet {
         if let (Some(&first), Some(&last)) = (joined.first(), joined.last())
             && last[1] >= PI
         {
-            if joined.len() > 1 {
-                if first[0] <= -PI {
-                    joined.remove(0);
-                    if let Some(last) = joined.last_mut() {
-                        last[1] = first[1] + TAU;
-                    }
+            if joined.len() > 1 && first[0] <= -PI {
+                joined.remove(0);
+                if let Some(last) = joined.last_mut() {
+                    last[1] = first[1] + TAU;
                 }
             }
             // A lone pi is written -pi.
@@ -261,9 +258,11 @@ mod tests {
     use proptest::prelude::*;
 
     fn set() -> impl Strategy<Value = AngleSet> {
-        prop::collection::vec((-7.0..7.0f64, prop_oneof![0.0..3.0f64, Just(0.0), Just(PI)]), 0..4).prop_map(|arcs: Vec<(f64, f64)>| {
-            arcs.iter().fold(AngleSet::empty(), |set, &(from, width)| set.union(&AngleSet::arc(from, width)))
-        })
+        prop::collection::vec((-7.0..7.0f64, prop_oneof![0.0..3.0f64, Just(0.0), Just(PI)]), 0..4).prop_map(
+            |arcs: Vec<(f64, f64)>| {
+                arcs.iter().fold(AngleSet::empty(), |set, &(from, width)| set.union(&AngleSet::arc(from, width)))
+            },
+        )
     }
 
     proptest! {

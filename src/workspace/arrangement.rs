@@ -71,15 +71,18 @@ impl Plan<'_> {
                     // More coincident curves than names are kept for add no boundary.
                     let _ = line.bounds.try_push(k);
                 }
-                None => lines.push(Line {
-                    carrier: bound.carrier,
-                    bounds: ArrayVec::from_iter([k]),
-                    cuts: Vec::new(),
-                }),
+                None => lines.push(Line { carrier: bound.carrier, bounds: ArrayVec::from_iter([k]), cuts: Vec::new() }),
             }
         }
         // Zero radii are points of their own.
         let points = vertices.len();
+        for (v, &p) in vertices.iter().enumerate() {
+            for line in &mut lines {
+                if line.carrier.distance(p).abs() <= same {
+                    line.cuts.push((line.carrier.parameter(p), v));
+                }
+            }
+        }
         for i in 1..lines.len() {
             for j in 0..i {
                 let Meeting::Points(found) = lines[i].carrier.meet(&lines[j].carrier, same) else { continue };
@@ -124,10 +127,9 @@ impl Plan<'_> {
                 }
                 let active = self.active(line, left, right);
                 let ahead = sides != [false, true];
-                let at = |id: usize, parameter: f64| {
-                    vertices.get(id).copied().unwrap_or_else(|| line.carrier.at(parameter))
-                };
-                let ends = [at(piece.ends[0], piece.from), at(piece.ends[1], piece.to)];
+                // A whole circle without a vertex starts and ends in one and the same point.
+                let at = |id: usize| vertices.get(id).copied().unwrap_or_else(|| line.carrier.at(piece.from));
+                let ends = piece.ends.map(at);
                 let arc = boundary_arc(&line.carrier, [piece.from, piece.to], ends, ahead, active);
                 if sides == [false, false] {
                     isolated.push(Isolated::Curve(arc));
@@ -233,11 +235,8 @@ fn boundary_arc(
     ahead: bool,
     active: Vec<ActiveLimit>,
 ) -> BoundaryArc {
-    let ([from, to], [start, end]) = if ahead {
-        (parameters, ends)
-    } else {
-        ([parameters[1], parameters[0]], [ends[1], ends[0]])
-    };
+    let ([from, to], [start, end]) =
+        if ahead { (parameters, ends) } else { ([parameters[1], parameters[0]], [ends[1], ends[0]]) };
     let curve = match *carrier {
         Carrier::Circle { center, radius } => {
             ArcCurve::Circle { center: center.into(), radius, start_angle: from, end_angle: to }

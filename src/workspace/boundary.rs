@@ -4,20 +4,8 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector2;
 
-use super::limits::{ActiveLimit, Limit};
-
-/// A piece of a coupler curve: the places of `C` where two limits of different legs are met at once.
-#[derive(Clone, Debug, PartialEq)]
-pub struct CouplerArc {
-    /// The two limits held.
-    pub pair: [Limit; 2],
-    /// Which of the two places at an orientation, at the start: +1 or -1.
-    pub sigma: f64,
-    /// Orientation at the start, radians.
-    pub phi_start: f64,
-    /// Orientation at the end, radians.
-    pub phi_end: f64,
-}
+use super::folds::CouplerArc;
+use super::limits::ActiveLimit;
 
 /// What a piece of boundary lies on.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,9 +24,9 @@ pub enum ArcCurve {
         end_angle: f64,
     },
     /// A coupler curve: a sextic between two circles, a quartic between circle and line, and the conchoidal kinds.
-    Coupler(CouplerArc),
+    Coupler(Box<CouplerArc>),
     /// A coupler curve between two lines: an ellipse.
-    Ellipse(CouplerArc),
+    Ellipse(Box<CouplerArc>),
 }
 
 /// A piece of boundary; the workspace lies to its left.
@@ -193,23 +181,4 @@ fn turn_minus_sine(x: f64) -> f64 {
 /// The rectangle around a rectangle and a point.
 pub(super) fn around(b: [f64; 4], [x, y]: [f64; 2]) -> [f64; 4] {
     [b[0].min(x), b[1].min(y), b[2].max(x), b[3].max(y)]
-}
-
-// To be replaced by the coupler arcs' own file.
-impl CouplerArc {
-    fn points(&self, _n: usize) -> Vec<[f64; 2]> {
-        unreachable!("no coupler arcs are made yet")
-    }
-    fn integrals(&self, _origin: Vector2<f64>) -> ArcIntegrals {
-        unreachable!("no coupler arcs are made yet")
-    }
-    fn bbox(&self) -> [f64; 4] {
-        unreachable!("no coupler arcs are made yet")
-    }
-    fn tangents(&self) -> [[f64; 2]; 2] {
-        unreachable!("no coupler arcs are made yet")
-    }
-    fn curvatures(&self) -> [f64; 2] {
-        unreachable!("no coupler arcs are made yet")
-    }
 }

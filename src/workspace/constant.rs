@@ -47,7 +47,9 @@ impl Reach {
             WorkspaceKind::Constant { phi } => self.constant(*phi),
             WorkspaceKind::Total(range) => self.total(Some(range))?,
             WorkspaceKind::Dextrous => self.total(None)?,
-            WorkspaceKind::Maximal | WorkspaceKind::Inclusive(_) => Region::default(),
+            WorkspaceKind::Inclusive(range) if range.width == 0.0 => self.constant(range.from),
+            WorkspaceKind::Inclusive(range) => return Ok(self.folded(kind, Some(range))),
+            WorkspaceKind::Maximal => return Ok(self.folded(kind, None)),
         };
         Ok(Workspace { kind: *kind, region, separating: Vec::new() })
     }

@@ -23,10 +23,18 @@ use crate::plane::{Sector, conjugate, direction, product};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Chain {
     /// The slider's axis passes the base pivot at this signed distance: the platform pivot lies so far to its left.
-    Rpr { offset: f64 },
-    Rrr { l1: f64, l2: f64 },
+    Rpr {
+        offset: f64,
+    },
+    Rrr {
+        l1: f64,
+        l2: f64,
+    },
     /// The slider runs along the unit vector `e`.
-    Prr { l: f64, e: Vector2<f64> },
+    Prr {
+        l: f64,
+        e: Vector2<f64>,
+    },
 }
 
 /// A leg's limits, prepared.
@@ -137,7 +145,8 @@ impl LegReach {
             let d = (at - self.a).norm();
             return low - tol <= d && d <= high + tol;
         }
-        (self.modes[0] && self.allows_in(true, at, turn, tol)) || (self.modes[1] && self.allows_in(false, at, turn, tol))
+        (self.modes[0] && self.allows_in(true, at, turn, tol))
+            || (self.modes[1] && self.allows_in(false, at, turn, tol))
     }
 
     /// The same in one working mode.
@@ -154,15 +163,9 @@ impl LegReach {
                     return false;
                 }
                 let rho = side * (gap.max(0.0) * (d + offset.abs())).sqrt();
-                // rho u, of the slider's length; where the pivots meet every direction of it is one.
-                let slider = if d > 0.0 {
-                    let scale = if offset == 0.0 { side } else { rho / d / d };
-                    if offset == 0.0 { r * scale } else { product(Vector2::new(rho, -offset), r) * scale }
-                } else {
-                    Vector2::zeros()
-                };
-                // The sectors are of u itself, which points along rho u for a positive stroke.
-                let u = slider * side;
+                // The slider's direction times the distance of the pivots, so that the sector's tolerance is a length; where
+                // the pivots meet every direction is one.
+                let u = if offset == 0.0 { r * side } else { product(Vector2::new(rho, -offset), r) / d };
                 within(rho) && points(&self.base_sector, u) && points(&self.platform_sector, seen_from(turn, u))
             }
             Chain::Rrr { l1, l2 } => {
@@ -189,7 +192,8 @@ impl LegReach {
                     return true;
                 }
                 let u = product(conjugate(Vector2::new(l1, 0.0) + elbow * l2), r) / (d * d);
-                points(&self.base_sector, u * l1) && points(&self.platform_sector, seen_from(turn, product(u, elbow)) * l2)
+                points(&self.base_sector, u * l1)
+                    && points(&self.platform_sector, seen_from(turn, product(u, elbow)) * l2)
             }
             Chain::Prr { l, e } => {
                 let seen = seen_from(e, r);
@@ -198,7 +202,10 @@ impl LegReach {
                     return false;
                 }
                 let half = (gap.max(0.0) * (l + seen.y.abs())).sqrt();
-                if !within(seen.x + side * half) {
+                // Where the modes nearly merge a small gap hides the stroke behind a root: any of a gap within the tolerance will do.
+                let [least, most] = [gap - tol, gap + tol].map(|gap| (gap.max(0.0) * (l + seen.y.abs())).sqrt());
+                let [low, high] = if plus { [least, most] } else { [-most, -least] };
+                if seen.x + high < self.stroke[0] - tol || seen.x + low > self.stroke[1] + tol {
                     return false;
                 }
                 let w = product(e, Vector2::new(-side * half, seen.y));
@@ -276,15 +283,21 @@ impl LegReach {
                 }
             }
         }
+        let ranged = self.base_sector.is_some() || self.elbow_sector.is_some() || self.platform_sector.is_some();
         let mut merge = |cause, dyad, sense| out.push(Limit { leg, mode: None, cause, dyad, sense });
         match self.chain {
             Chain::Rpr { offset } if offset != 0.0 => {
                 merge(LimitCause::Shortest, Dyad::RR { a, b, length: offset.abs() }, -1.0);
             }
-            Chain::Rpr { .. } => {}
+            // A point bounds nothing, but there the surfaces of the ranges pass from one mode to the other.
+            Chain::Rpr { .. } => {
+                if ranged && self.stroke[0] < 0.0 && self.stroke[1] > 0.0 {
+                    merge(LimitCause::Shortest, Dyad::RR { a, b, length: 0.0 }, -1.0);
+                }
+            }
             Chain::Rrr { l1, l2 } => {
                 merge(LimitCause::Stretched, Dyad::RR { a, b, length: l1 + l2 }, 1.0);
-                if l1 != l2 {
+                if l1 != l2 || ranged {
                     merge(LimitCause::Folded, Dyad::RR { a, b, length: (l1 - l2).abs() }, -1.0);
                 }
             }

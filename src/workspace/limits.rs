@@ -174,6 +174,16 @@ pub enum LimitCause {
     Shortest,
 }
 
+impl LimitCause {
+    /// The joint that is at an end of its range, from 0; `None` where modes merge.
+    pub fn joint(&self) -> Option<usize> {
+        match *self {
+            Self::JointMin { joint, .. } | Self::JointMax { joint, .. } => Some(joint),
+            _ => None,
+        }
+    }
+}
+
 /// A limit that is active on a piece of boundary.
 ///
 /// ```
@@ -255,7 +265,9 @@ impl Limit {
         match self.dyad {
             Dyad::RR { a, b, length } => (c + product(turn, b) - a).norm() - length,
             Dyad::PR { a, u, b } => u.perp(&(c + product(turn, b) - a)) / u.norm(),
-            Dyad::RP { a, b, v, offset } => product(turn, v).perp(&(a - c - product(turn, b))) / v.norm() - beside(v, offset),
+            Dyad::RP { a, b, v, offset } => {
+                product(turn, v).perp(&(a - c - product(turn, b))) / v.norm() - beside(v, offset)
+            }
             Dyad::PP { .. } => unreachable!("no limit of a covered leg leaves two sliders"),
         }
     }
@@ -319,7 +331,12 @@ impl Limit {
                     return ArrayVec::new();
                 }
                 let middle = away.y.atan2(away.x) - b.y.atan2(b.x);
-                either(middle, (d + arm - length) * (d + arm + length), (length - (d - arm)) * (length + (d - arm)), tol * (d + arm + length))
+                either(
+                    middle,
+                    (d + arm - length) * (d + arm + length),
+                    (length - (d - arm)) * (length + (d - arm)),
+                    tol * (d + arm + length),
+                )
             }
             Dyad::PR { a, u, b } => {
                 // u x (C - a) + |b| sin(phi + beta - alpha) = 0.

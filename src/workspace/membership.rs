@@ -145,8 +145,7 @@ impl LegReach {
             })
             .collect();
         bounds.push(Bound { carrier: horizon, leg: 0, active: ArrayVec::from_iter([ActiveLimit::PhiFrom]) });
-        let admits =
-            |_, p: Vector2<f64>, tol: f64| horizon.distance(p) <= tol && self.allows_pose(p, turn, tol);
+        let admits = |_, p: Vector2<f64>, tol: f64| horizon.distance(p) <= tol && self.allows_pose(p, turn, tol);
         let region = Plan { bounds: &bounds, legs: 1, admits: &admits, size }.region();
         let mut edges: Vec<Edge> = (region.loops.iter().flat_map(|l| &l.arcs).chain(&region.unclosed))
             .filter(|arc| arc.active != [ActiveLimit::PhiFrom])
@@ -192,7 +191,10 @@ impl LegReach {
         match nearest {
             Some((distance, active)) => Slack { value: sign * distance, binding: Some(active) },
             // Everything is allowed, or nothing anywhere.
-            None => Slack { value: sign * f64::INFINITY, binding: self.limits.first().map(Limit::active).filter(|_| sign < 0.0) },
+            None => Slack {
+                value: sign * f64::INFINITY,
+                binding: self.limits.first().map(Limit::active).filter(|_| sign < 0.0),
+            },
         }
     }
 

@@ -17,11 +17,12 @@
 //! exact set of orientations at a place, and every piece of boundary is decided by such exact membership on both its sides.
 //!
 //! It covers legs RPR, RRR and PRR, in any mixture, whichever joints are driven. Sources: Merlet, Gosselin, Mouly 1998, whose rules for
-//! the maximal, inclusive, total and dextrous workspaces are mended here (derivations/leg_reach.rs).
+//! the maximal, inclusive, total and dextrous workspaces are mended here (derivations/ring_reach.rs, slider_reach.rs, joint_ranges.rs).
 
 mod arrangement;
 mod boundary;
 mod constant;
+mod folds;
 mod gradient;
 mod leg;
 mod limits;
@@ -31,11 +32,11 @@ mod optimise;
 mod reach;
 mod region;
 mod stack;
-mod stub;
 mod total;
 mod void;
 
-pub use boundary::{ArcCurve, BoundaryArc, CouplerArc};
+pub use boundary::{ArcCurve, BoundaryArc};
+pub use folds::CouplerArc;
 pub use limits::{ActiveLimit, Limit, LimitCause, WorkspaceError, WorkspaceModes};
 pub use membership::Membership;
 pub use reach::Reach;

@@ -152,8 +152,10 @@ impl LegReach {
             return self.ring_orientations(low, high, at, tol);
         }
         let mut ends: Vec<f64> = self.limits.iter().flat_map(|limit| limit.orientations_at(at, tol)).collect();
+        /// Ends nearer than this (radians; some roundings of an angle) are one orientation.
+        const SEAM: f64 = 2e-15;
         ends.sort_by(f64::total_cmp);
-        ends.dedup();
+        ends.dedup_by(|later, earlier| *later - *earlier <= SEAM);
         let Some(&first) = ends.first() else {
             return if self.allows_pose(at, direction(0.0), tol) { AngleSet::full() } else { AngleSet::empty() };
         };

@@ -80,6 +80,7 @@ pub struct Loop {
 
 /// A part of a region that has no area.
 #[derive(Clone, Debug, PartialEq)]
+#[allow(clippy::large_enum_variant, reason = "a region has a few of them at most")]
 pub enum Isolated {
     /// A point.
     Point {
@@ -247,10 +248,8 @@ fn closed_loop(arcs: &[JoinedArc], walk: Vec<usize>) -> Loop {
         match out.last_mut() {
             Some(before) if goes_on(walk[(first + k + n - 1) % n], here) => {
                 before.end = arc.end;
-                if let (
-                    ArcCurve::Circle { end_angle, .. },
-                    ArcCurve::Circle { start_angle: from, end_angle: to, .. },
-                ) = (&mut before.curve, &arc.curve)
+                if let (ArcCurve::Circle { end_angle, .. }, ArcCurve::Circle { start_angle: from, end_angle: to, .. }) =
+                    (&mut before.curve, &arc.curve)
                 {
                     *end_angle += to - from;
                 }

@@ -4,7 +4,7 @@
 //! orientation. Worst orientations are those where the limit's measure is stationary ([`super::Limit::alignments`]), the ends of the range, and
 //! those where two limits of one leg meet in a corner that points into the leg's region (the lens tips of a PRR leg); never two limits
 //! of different legs, because each leg must hold by itself. With two limits of one leg held, its remaining joint moves `C` on a circle, or on a line at
-//! one orientation. derivations/total_orientation.rs works it through.
+//! one orientation. derivations/ring_reach.rs, slider_reach.rs and joint_ranges.rs work it through.
 
 use nalgebra::Vector2;
 
@@ -57,7 +57,9 @@ impl LegReach {
         /// Within a gap up to this wide (radians) the worst orientation is the middle, to first order.
         const NARROW: f64 = 1e-4;
         let range = range.unwrap_or(&PhiRange::FULL);
-        if tol == 0.0 && !(self.allows_pose(at, direction(range.from), 0.0) && self.allows_pose(at, direction(range.to()), 0.0)) {
+        if tol == 0.0
+            && !(self.allows_pose(at, direction(range.from), 0.0) && self.allows_pose(at, direction(range.to()), 0.0))
+        {
             return false;
         }
         let set = self.orientations(at, super::reach::TOUCH * size);

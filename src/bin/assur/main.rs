@@ -46,7 +46,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             kinematics::velocity(&model, &pose, mode.as_deref(), &asked, json)
         }
         Command::Singularities { model, phi, mode, map, csv, no_polynomial, shown } => {
-            let asked = kinematics::AskedLoci { phi, mode, map, csv, polynomial: !no_polynomial };
+            let asked = kinematics::LociOptions { phi, mode, map, csv, polynomial: !no_polynomial };
             kinematics::singularities(&model, &asked, &shown)
         }
         Command::Path { model, through, from, output, shown } => {
