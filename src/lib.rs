@@ -108,7 +108,7 @@ pub use linkage::{
     TrussJoint, TwoLinkAssemblies, TwoLinkAssembly, TwoLinkError, TwoLinkGroup, TwoLinkSpecial, triad_degree,
 };
 pub use manipulator::{
-    AssemblyModes, DescriptionError, FamilyError, FollowedPath, InverseSpecial, JointKind, JointsError, JointsReason,
+    AssemblyModes, DescriptionError, DesignCoordinate, DesignError, DesignKey, DesignNumber, DesignPart, FamilyError, FollowedPath, InverseSpecial, JointKind, JointsError, JointsReason,
     KinematicsError, Leg, LegLocus, LockError, LockedGroup, LocusError, Manipulator, ManipulatorMode, MapQuantity,
     ModeChoice, ModesBatch, ModesPlaces, PathError, PathEvent, PathEventKind, PathRow, PathSettings, Placement,
     PlaneCurve, PlaneMap, PlaneWindow, Reading, Remark, SingularMatrix, Singularity, SingularityKind, SingularityLocus,

@@ -24,6 +24,7 @@ mod batch;
 mod check;
 mod claims;
 mod coupler_file;
+mod dxf;
 mod error;
 mod error_place;
 mod group_file;
@@ -37,8 +38,12 @@ mod reader;
 mod report;
 mod spatial_file;
 mod spatial_report;
+#[cfg(feature = "batch")]
+mod sweep;
 mod tree;
 mod triad_file;
+mod workspace_question;
+mod workspace_report;
 mod write;
 
 #[cfg(feature = "batch")]
@@ -48,6 +53,7 @@ pub use batch::{
 pub use check::{CheckReport, LegReport, RemarkReport};
 pub use claims::{ClaimReport, ClaimedPoses, MissingReport, Subject, VerifyReport};
 pub use coupler_file::{CouplerFile, CouplerReport};
+pub use dxf::workspace_dxf;
 pub use error::{FieldProblem, FileError, Format};
 pub use error_place::{ErrorPlace, FoundValue};
 pub use group_file::{GroupAssemblyReport, GroupReport, parse_group, write_group};
@@ -64,4 +70,8 @@ pub use spatial_report::{
     hana_workspace_json, tilt_json, tilt_limit_name, tilt_map_json, tripod_forward_json, tripod_inverse_json,
     tripod_velocity_json,
 };
+#[cfg(feature = "batch")]
+pub use sweep::{Measure, Sweep, SweepError, SweepTable, Variation};
 pub use triad_file::{DyadEntry, TriadFile, read_triad};
+pub use workspace_question::{WorkspaceKindError, parse_points, parse_workspace_kind, read_points};
+pub use workspace_report::{WorkspaceReport, curve_name, workspace_csv};

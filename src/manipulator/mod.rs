@@ -5,6 +5,7 @@
 mod batch;
 mod catalogue;
 mod describe;
+mod design;
 mod follow;
 mod forward;
 mod frame;
@@ -23,6 +24,7 @@ mod watch;
 pub use batch::{ModesBatch, ModesPlaces};
 pub use catalogue::FamilyError;
 pub use describe::{DescriptionError, JointKind, JointsError, JointsReason, Leg, Manipulator, Placement};
+pub use design::{DesignCoordinate, DesignError, DesignKey, DesignNumber, DesignPart};
 pub use follow::{FollowedPath, PathError, PathEvent, PathEventKind, PathRow, PathSettings};
 pub use forward::{AssemblyModes, ManipulatorMode, Violation};
 pub use inverse::{InverseSpecial, KinematicsError, ModeChoice, Unreachable, WorkingMode, WorkingModes};

@@ -16,6 +16,7 @@ mod spatial;
 mod symbols;
 mod triads;
 mod trusses;
+mod workspaces;
 
 pub use couplers::draw_coupler;
 pub use linkages::draw_linkage;
@@ -24,3 +25,4 @@ pub use plane::{draw_path, draw_singularities};
 pub use spatial::{draw_hana, draw_tilt_sections};
 pub use triads::draw_assemblies;
 pub use trusses::draw_truss;
+pub use workspaces::{WorkspaceLayer, draw_workspaces};

@@ -23,12 +23,17 @@ mod arrangement;
 mod boundary;
 mod constant;
 mod folds;
+mod gradient;
 mod leg;
 mod limits;
 mod membership;
+#[cfg(feature = "optimise")]
+mod optimise;
 mod reach;
 mod region;
+mod stack;
 mod total;
+mod void;
 
 pub use boundary::{ArcCurve, BoundaryArc};
 pub use folds::CouplerArc;
@@ -36,3 +41,7 @@ pub use limits::{ActiveLimit, Limit, LimitCause, WorkspaceError, WorkspaceModes}
 pub use membership::Membership;
 pub use reach::Reach;
 pub use region::{Isolated, Loop, Region, Workspace, WorkspaceKind};
+#[cfg(feature = "optimise")]
+pub use optimise::{DesignChoice, Optimum};
+pub use stack::Stack;
+pub use void::StrokeVoid;

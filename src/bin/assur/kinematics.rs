@@ -13,7 +13,7 @@ use crate::args::{Quantity, Shown};
 use crate::output::{self, Failure, Files};
 use crate::tables::{ALARM, POSE_DIGITS, SIDE_DIGITS, STRONG, digits, heading, line, table};
 
-fn about(file: &Path, error: impl std::fmt::Display) -> Failure {
+pub(crate) fn about(file: &Path, error: impl std::fmt::Display) -> Failure {
     Failure::About(file.display().to_string(), error.to_string())
 }
 
@@ -33,7 +33,7 @@ fn pose_of(values: &[f64], unit: AngleUnit, file: &Path) -> Result<Pose, Failure
     Ok(Pose::new(x, y, unit.to_rad(phi)))
 }
 
-fn title(model: &ModelFile) -> String {
+pub(crate) fn title(model: &ModelFile) -> String {
     let robot = &model.manipulator;
     if robot.name.is_empty() { robot.family() } else { robot.name.clone() }
 }

@@ -9,6 +9,7 @@ mod output;
 mod png;
 mod spatial;
 mod tables;
+mod workspaces;
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -54,6 +55,8 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::Coupler { file, complex, shown } => linkages::coupler(&file, complex, &shown),
         Command::Group { file, inputs, complex, shown } => linkages::group(&file, &inputs, complex, &shown),
         Command::Triad { file, asked } => triad(&file, &asked),
+        Command::Workspace(asked) => workspaces::workspace(&asked),
+        Command::Sweep(asked) => workspaces::sweep(&asked),
         Command::Hana { command } => spatial::hana(command),
         Command::Tripod { command } => spatial::tripod(command),
         Command::Verify { report, model, tolerance, json } => verify(&report, &model, tolerance, json),
