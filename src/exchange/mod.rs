@@ -33,6 +33,7 @@ mod motion_report;
 mod path_file;
 mod reader;
 mod report;
+mod spatial_check;
 mod spatial_file;
 mod spatial_report;
 mod tree;
@@ -54,10 +55,11 @@ pub use model::{AngleUnit, ModelFile, read_problem};
 pub use motion_report::{InverseReport, Motion, ROW_SCALING, SINGULAR_VALUE_SCALING, VelocityReport};
 pub use path_file::{PathFileError, PathReport, parse_path, read_path};
 pub use report::{CertificateReport, ForwardReport, ModeReport, SubjectReport};
+pub use spatial_check::{AnyCheck, SpatialCheckReport};
 pub use spatial_file::{HanaFile, TripodFile};
 pub use spatial_report::{
     capability_stop_name, hana_capability_json, hana_forward_json, hana_inverse_json, hana_velocity_json,
-    hana_workspace_json, tilt_json, tilt_limit_name, tilt_map_json, tripod_forward_json, tripod_inverse_json,
-    tripod_velocity_json,
+    hana_workspace_json, tilt_json, tilt_limit_name, tilt_map_json, tripod_determinant_csv, tripod_determinant_json,
+    tripod_forward_json, tripod_inverse_json, tripod_velocity_json,
 };
 pub use triad_file::{DyadEntry, TriadFile, read_triad};
