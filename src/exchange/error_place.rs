@@ -6,9 +6,9 @@ use serde::Serialize;
 
 use super::error::{FieldProblem, FileError};
 use super::questions::LociError;
-use crate::linkage::{CouplerError, LinkageError, PinnedDyadError, TriadError, TrussError};
+use crate::linkage::{CouplerError, GroupError, LinkageError, PinnedDyadError, TriadError, TrussError};
 use crate::manipulator::{DescriptionError, KinematicsError, LockError, LocusError, PathError};
-use crate::spatial::{HanaWorkspaceError, SpatialError, TripodError};
+use crate::spatial::{HanaCapabilityError, SpatialError, TripodError};
 
 /// Where an error lies: file, row, leg, joint, field, and the value found there. Counted from 1.
 ///
@@ -257,15 +257,13 @@ impl From<&TripodError> for ErrorPlace {
     }
 }
 
-impl From<&HanaWorkspaceError> for ErrorPlace {
-    fn from(error: &HanaWorkspaceError) -> Self {
-        use HanaWorkspaceError as E;
+impl From<&HanaCapabilityError> for ErrorPlace {
+    fn from(error: &HanaCapabilityError) -> Self {
+        use HanaCapabilityError as E;
         match error {
             E::Question(error) => error.into(),
             E::OppositeSides { mode } => Self::field("mode").and_value(FoundValue::Text(mode.to_string())),
             E::DifferentStrokes => Self::field("strokes"),
-            E::LargePlatform { r, .. } => Self::field("r").and_value(FoundValue::Number(*r)),
-            E::NoArc { beyond } => Self::field("y").and_value(FoundValue::Number(*beyond)),
         }
     }
 }
@@ -283,16 +281,29 @@ impl From<&TrussError> for ErrorPlace {
     }
 }
 
+impl From<&GroupError> for ErrorPlace {
+    fn from(error: &GroupError) -> Self {
+        match error {
+            GroupError::Truss(error) => error.into(),
+            GroupError::Triad(error) => error.into(),
+            GroupError::Dyad(error) => error.into(),
+        }
+    }
+}
+
 impl From<&LinkageError> for ErrorPlace {
     fn from(error: &LinkageError) -> Self {
         use LinkageError as E;
         match error {
             E::NoSuchLink { what, link, .. } => Self::field(what).and_value(FoundValue::Count(*link)),
-            E::SelfJoint { joint, .. } | E::DrivenLoop { joint } => Self::field("joints").and_joint(*joint),
+            E::SelfJoint { joint, .. } | E::DrivenLoop { joint } | E::NoDirection { joint } => {
+                Self::field("joints").and_joint(*joint)
+            }
+            E::Coincident { first, .. } => Self::field("joints").and_joint(*first),
             E::NotFinite { what, value } => Self::field(what).and_value(FoundValue::Number(*value)),
             E::InputCount { found, .. } => Self::field("inputs").and_value(FoundValue::Count(*found)),
             E::Group { error, .. } => error.into(),
-            E::TooLarge { .. } | E::Overdetermined { .. } | E::Movable { .. } | E::TooMany => Self::field("joints"),
+            _ => Self::field("joints"),
         }
     }
 }
