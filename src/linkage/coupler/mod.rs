@@ -7,9 +7,11 @@
 
 mod circuits;
 mod count;
+mod cross;
 mod curve;
 mod equation;
 mod meet;
+mod search;
 mod sextic;
 
 pub use circuits::{Circuit, GrashofClass, InputRange};

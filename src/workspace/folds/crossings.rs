@@ -167,14 +167,7 @@ pub(super) fn meet(
         }
         let (la, lb) = (a.length(), b.length());
         if la.max(lb) <= tol {
-            let at = 0.5 * (a.from + a.to);
-            // The place may be a little beyond this chord.
-            let room = b.to - b.from;
-            let (low, high) = (second.from.min(second.to), second.from.max(second.to));
-            let near = nearest(other, one(at).0, (b.from - room).clamp(low, high), (b.to + room).clamp(low, high));
-            if (one(at).0 - other(near).0).norm() <= CLOSE * tol {
-                out.crossings.push([at, near]);
-            }
+            out.crossings.extend(touch(one, other, &a, &b, CLOSE * tol));
             continue;
         }
         if la > 0.0 && lb > 0.0 {
@@ -197,6 +190,18 @@ pub(super) fn meet(
             todo.extend(b.halves(other).map(|half| (a, half)));
         }
     }
+}
+
+/// Where two short pieces come nearer than `close`, if they do: in the middle of one of them, or at an end where a curve begins.
+fn touch(one: &Eval<'_>, other: &Eval<'_>, a: &Chord, b: &Chord, close: f64) -> Option<[f64; 2]> {
+    let places = |chord: &Chord| [0.5 * (chord.from + chord.to), chord.from, chord.to];
+    let onto = |from: &Eval<'_>, at: f64, to: &Eval<'_>, chord: &Chord| {
+        let point = from(at).0;
+        let found = nearest(to, point, chord.from, chord.to);
+        ((to(found).0 - point).norm() <= close).then_some(found)
+    };
+    let first = places(a).into_iter().find_map(|s| onto(one, s, other, b).map(|t| [s, t]));
+    first.or_else(|| places(b).into_iter().find_map(|t| onto(other, t, one, a).map(|s| [s, t])))
 }
 
 /// The parameter between `from` and `to` of the place on a nearly straight piece nearest to a point.

@@ -108,10 +108,11 @@ impl Curves {
         let coupled = all.add_coupled();
         let book = Book { stationary, ends, upright, edges, coupled };
         all.mark_stationary(&book);
+        all.mark_poles(&book, range);
         if let Some(range) = range {
             all.mark_phi_ends(&book, range);
         }
-        all.mark_edges(&book, range);
+        all.mark_edges(reach, &book, range);
         all.mark_triads(&book);
         all.mark_branch_ends();
         all.mark_frozen();
@@ -355,6 +356,41 @@ impl Curves {
         }
     }
 
+    /// Where a limit is met in every orientation its sense changes along all curves through the place.
+    fn mark_poles(&mut self, book: &Book, range: Option<&PhiRange>) {
+        for g in 0..self.surfaces.len() {
+            let surface = &self.surfaces[g];
+            let Some(at) = Motion::pole(&surface.form, self.tol).filter(|_| !surface.upright) else { continue };
+            let leg = surface.leg;
+            let vertex = self.vertex(at);
+            if let (Some(ends), Some(_)) = (&book.ends, range) {
+                for curve in ends[g].into_iter().flatten() {
+                    let t = self.motion(curve).carrier().parameter(at);
+                    self.mark(curve, t, vertex);
+                }
+            }
+            for k in 0..self.surfaces.len() {
+                if self.surfaces[k].leg == leg {
+                    continue;
+                }
+                for phi in Motion::orientations_at(at, &self.surfaces[k].form, self.tol) {
+                    self.mark_coupled(book, [g, k], &Place { c: at, turn: direction(phi) }, phi, vertex);
+                }
+                if let Some(Course::Upright { on, .. }) = book.upright[k].map(|curve| self.curves[curve].course)
+                    && on.distance(at).abs() <= self.tol
+                {
+                    self.mark_upright(book, k, at, vertex);
+                }
+            }
+            for &(curve, generators) in &book.edges {
+                let on = self.motion(curve).carrier();
+                if generators.contains(&g) && on.distance(at).abs() <= self.tol {
+                    self.mark(curve, on.parameter(at), vertex);
+                }
+            }
+        }
+    }
+
     fn mark_phi_ends(&mut self, book: &Book, range: &PhiRange) {
         let Some(ends) = &book.ends else { return };
         for (surface, pair) in ends.iter().enumerate() {
@@ -376,7 +412,7 @@ impl Curves {
         }
     }
 
-    fn mark_edges(&mut self, book: &Book, range: Option<&PhiRange>) {
+    fn mark_edges(&mut self, reach: &Reach, book: &Book, range: Option<&PhiRange>) {
         for &(curve, generators) in &book.edges {
             self.meet_others(book, curve, &generators, None);
             let motion = self.motion(curve);
@@ -410,6 +446,12 @@ impl Curves {
                             self.mark_upright(book, g, at, vertex);
                         }
                     }
+                }
+            }
+            for phi in edges::free_ends(&self.surfaces[generators[0]], &self.surfaces[generators[1]], reach) {
+                if let Some(t) = motion.at_phi(phi) {
+                    let vertex = self.vertex(motion.place(t).c);
+                    self.mark(curve, t, vertex);
                 }
             }
             if let Carrier::Circle { center, radius } = motion.carrier()

@@ -19,6 +19,8 @@ use nalgebra::Vector2;
 
 use super::super::leg::{Chain, LegReach};
 use super::super::limits::{Limit, LimitCause, seen_from};
+use super::super::reach::Reach;
+use super::curves::Surface;
 use super::motion::{Motion, angle};
 use super::surface::quarter;
 use crate::plane::{Carrier, Sector, conjugate, product};
@@ -118,6 +120,29 @@ pub(super) fn apex(leg: &LegReach) -> Option<Motion> {
     (meets && ranged).then_some(Motion::Pinned { q: leg.a, p: leg.b })
 }
 
+/// The orientations at which a leg turning freely about its pivots that meet has both its first and its last joint at an end of their ranges; none for edges that
+/// hold two joints.
+pub(super) fn free_ends(one: &Surface, other: &Surface, reach: &Reach) -> Vec<f64> {
+    let joint = |surface: &Surface| surface.limits[0].cause.joint();
+    if joint(one).is_none() || joint(one) != joint(other) {
+        return Vec::new();
+    }
+    let leg = &reach.legs[one.leg];
+    let (Some(base), Some(platform)) = (leg.base_sector, leg.platform_sector) else { return Vec::new() };
+    let mut out = Vec::new();
+    for u in [base.from, base.to] {
+        for v in [platform.from, platform.to] {
+            out.push(angle(product(u, conjugate(v)) * along(leg)));
+        }
+    }
+    out
+}
+
+/// Of a leg whose pivots meet: 1 where its last link then points as the first, -1 where it points back.
+fn along(leg: &LegReach) -> f64 {
+    if matches!(leg.chain, Chain::Rrr { .. }) { -1.0 } else { 1.0 }
+}
+
 /// Whether a leg with two of its limits held is allowed at a pose of the motion left to it: its third joint in range, and the mode that of both limits. Bounds missed by `tol`, a length, are met.
 ///
 /// Asked of the joints held and not of the pose, in which merging modes hide a joint's value behind a root.
@@ -170,8 +195,15 @@ pub(super) fn holds(leg: &LegReach, limits: [&Limit; 2], c: Point, turn: Point, 
             let measure = if merged { 0.0 } else { -w.dot(&e) };
             within(e.dot(&from_base) - l * w.dot(&e)) && points(&leg.base_sector, w * l) && is_mode(measure)
         }
-        // The pivots meet: the leg turns freely, and membership on both sides decides.
-        _ => true,
+        // The pivots meet and the leg turns freely, as far as both ranges have a direction in common.
+        _ => match (&leg.base_sector, &leg.platform_sector) {
+            (Some(base), Some(platform)) => {
+                let common = |u: Point| platform.contains(seen_from(turn, u) * along(leg), tol);
+                let back = |v: Point| base.contains(product(turn, v) * along(leg), tol);
+                common(base.from) || common(base.to) || back(platform.from) || back(platform.to)
+            }
+            _ => true,
+        },
     }
 }
 

@@ -132,6 +132,21 @@ impl Motion {
         }
     }
 
+    /// The place of the reference point at which a limit is met in every orientation, if there is one: at the base pivot of a circle that the platform
+    /// arm reaches just, or that a platform line through the reference point passes.
+    pub(crate) fn pole(form: &Form, tol: f64) -> Option<Point> {
+        match *form {
+            Form::Circle { a, b, r } => ((b.norm() - r).abs() <= tol).then_some(a),
+            Form::PlatformLine { a, k, .. } => (k.abs() <= tol).then_some(a),
+            Form::Line { .. } => None,
+        }
+    }
+
+    /// The orientations at which a limit holds with the reference point at a place; see [`Motion::meets`].
+    pub(crate) fn orientations_at(at: Point, form: &Form, tol: f64) -> ArrayVec<f64, 2> {
+        orientations_about(at, Point::zeros(), form, tol)
+    }
+
     /// The motions along which a limit is stationary in the orientation: at most two.
     pub(crate) fn stationary(form: &Form) -> ArrayVec<Self, 2> {
         let mut out = ArrayVec::new();
