@@ -327,7 +327,6 @@ class Manipulator:
         lower: float | None = None,
         upper: float | None = None,
         mode: str = "both",
-        assembly: ArrayLike | None = None,
     ) -> Region:
         """Where the reference point can reach, exactly; of legs RPR, RRR and PRR in any mixture.
 
@@ -340,8 +339,6 @@ class Manipulator:
             Radians; a range runs counter-clockwise, equal ends are that single orientation, a full turn or more is every one.
         mode : str
             ``"both"``, or a sign for each leg.
-        assembly : array_like, shape (3,), optional
-            With ``"maximal"``: only what the assembly in this pose reaches without being taken apart.
 
         Raises
         ------
@@ -349,10 +346,7 @@ class Manipulator:
             A leg that is not covered or not bounded, angles that the kind does not take or lacks.
         """
         angles = _angles_of(kind, phi, lower, upper)
-        pose = optional_vector("assembly", assembly, 3)
-        if pose is not None and kind != "maximal":
-            raise InputError("assembly: goes with the kind maximal", field="assembly", value=kind)
-        question = (kind, angles, mode, pose)
+        question = (kind, angles, mode)
         answer, shape = self._model.workspace(*question)
         found = result(Region, answer, (self, question))
         # The cache of the property: what is there need not be made again.

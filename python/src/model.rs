@@ -186,17 +186,9 @@ impl Model {
         })?)
     }
 
-    /// The workspace of a kind, or what one assembly reaches of it.
-    #[pyo3(signature = (kind, angles, mode, assembly))]
-    fn workspace(
-        &self,
-        py: Python<'_>,
-        kind: &str,
-        angles: [f64; 3],
-        mode: &str,
-        assembly: Option<[f64; 3]>,
-    ) -> PyResult<(Answer, Shape)> {
-        Ok(py.detach(|| workspace::workspace(&self.file, kind, angles, mode, assembly))?)
+    /// The workspace of a kind.
+    fn workspace(&self, py: Python<'_>, kind: &str, angles: [f64; 3], mode: &str) -> PyResult<(Answer, Shape)> {
+        Ok(py.detach(|| workspace::workspace(&self.file, kind, angles, mode))?)
     }
 
     /// What is proved of the poses that a report claims.

@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
+use assur::Manipulator;
 use assur::exchange::{ModelFile, WorkspaceReport};
 use assur::plane::PhiRange;
 use assur::plot::{WorkspaceLayer, draw_workspaces};
 use assur::workspace::{ArcCurve, BoundaryArc, Reach, Region, Workspace, WorkspaceKind, WorkspaceModes};
-use assur::{Manipulator, Pose};
 use numpy::{PyArray1, PyReadonlyArray2, ToPyArray};
 use pyo3::prelude::*;
 
@@ -18,8 +18,6 @@ use crate::refused::Refused;
 pub struct Shape {
     reach: Reach,
     workspace: Arc<Workspace>,
-    /// Membership is of the kind, not of one assembly of it.
-    whole: bool,
 }
 
 /// A kind by its name, as on the command line; angles in radians.
@@ -33,24 +31,18 @@ fn kind_of(name: &str, phi: f64, from: f64, to: f64) -> WorkspaceKind {
     }
 }
 
-/// The workspace of a kind, or what one assembly reaches of it.
+/// The workspace of a kind.
 pub fn workspace(
     file: &Arc<ModelFile>,
     kind: &str,
     [phi, from, to]: [f64; 3],
     mode: &str,
-    assembly: Option<[f64; 3]>,
 ) -> Result<(Answer, Shape), Refused> {
     let modes: WorkspaceModes = mode.parse().map_err(Refused::input)?;
     let reach = file.manipulator.reach(&modes).map_err(Refused::input)?;
-    let kind = kind_of(kind, phi, from, to);
-    let found = match assembly {
-        Some([x, y, phi]) => reach.assembly(&Pose::new(x, y, phi)),
-        None => reach.workspace(&kind),
-    };
-    let workspace = Arc::new(found.map_err(Refused::input)?);
-    let json = WorkspaceReport::new(&workspace, &modes, assembly, &[]).to_json();
-    let shape = Shape { reach: reach.clone(), workspace: workspace.clone(), whole: assembly.is_none() };
+    let workspace = Arc::new(reach.workspace(&kind_of(kind, phi, from, to)).map_err(Refused::input)?);
+    let json = WorkspaceReport::new(&workspace, &modes, None, &[]).to_json();
+    let shape = Shape { reach: reach.clone(), workspace: workspace.clone() };
     let file = file.clone();
     let draw = move || draw(&file.manipulator, &reach, &workspace);
     Ok((Answer::drawn(json, draw), shape))
@@ -103,11 +95,5 @@ impl Shape {
         let margins: Vec<f64> = found.iter().map(|one| one.margin).collect();
         let binding = found.iter().map(|one| one.binding.map(|limit| limit.to_string())).collect();
         Ok((inside.to_pyarray(py), margins.to_pyarray(py), binding))
-    }
-
-    /// Whether membership is of this region: not where one assembly alone counts.
-    #[getter]
-    fn whole(&self) -> bool {
-        self.whole
     }
 }

@@ -6,6 +6,7 @@ import math
 import pickle
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -29,7 +30,7 @@ KINDS: dict[str, dict[str, float]] = {
 OPTIONS = {"phi": "--phi", "lower": "--from", "upper": "--to"}
 
 
-def _asked(kind: str) -> dict[str, float]:
+def _asked(kind: str) -> dict[str, Any]:
     return {name: math.radians(angle) for name, angle in KINDS[kind].items()}
 
 

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::error::{FieldProblem, FileError};
 use super::questions::LociError;
-use crate::linkage::{CouplerError, LinkageError, PinnedDyadError, TriadError, TrussError};
+use crate::linkage::{CouplerError, GroupError, LinkageError, PinnedDyadError, TriadError, TrussError};
 use crate::manipulator::{DescriptionError, DesignError, KinematicsError, LockError, LocusError, PathError};
 use crate::spatial::{HanaWorkspaceError, SpatialError, TripodError};
 use crate::workspace::WorkspaceError;
@@ -318,16 +318,30 @@ impl From<&TrussError> for ErrorPlace {
     }
 }
 
+impl From<&GroupError> for ErrorPlace {
+    fn from(error: &GroupError) -> Self {
+        match error {
+            GroupError::Truss(error) => error.into(),
+            GroupError::Triad(error) => error.into(),
+            GroupError::Dyad(error) => error.into(),
+        }
+    }
+}
+
 impl From<&LinkageError> for ErrorPlace {
     fn from(error: &LinkageError) -> Self {
         use LinkageError as E;
         match error {
             E::NoSuchLink { what, link, .. } => Self::field(what).and_value(FoundValue::Count(*link)),
-            E::SelfJoint { joint, .. } | E::DrivenLoop { joint } => Self::field("joints").and_joint(*joint),
+            E::SelfJoint { joint, .. } | E::DrivenLoop { joint } | E::NoDirection { joint } => {
+                Self::field("joints").and_joint(*joint)
+            }
+            E::Coincident { first, .. } => Self::field("joints").and_joint(*first),
             E::NotFinite { what, value } => Self::field(what).and_value(FoundValue::Number(*value)),
             E::InputCount { found, .. } => Self::field("inputs").and_value(FoundValue::Count(*found)),
             E::Group { error, .. } => error.into(),
-            E::TooLarge { .. } | E::Overdetermined { .. } | E::Movable { .. } | E::TooMany => Self::field("joints"),
+            // About links or the whole: what is wrong is how they are joined.
+            _ => Self::field("joints"),
         }
     }
 }

@@ -224,9 +224,11 @@ impl WorkspaceReport {
 impl From<&Region> for RegionReport {
     fn from(region: &Region) -> Self {
         let isolated = |part: &Isolated| match part {
-            Isolated::Point { at, active } => {
-                IsolatedReport::Point { curve: "point", at: *at, active: active.iter().map(ToString::to_string).collect() }
-            }
+            Isolated::Point { at, active } => IsolatedReport::Point {
+                curve: "point",
+                at: *at,
+                active: active.iter().map(ToString::to_string).collect(),
+            },
             Isolated::Curve(arc) => IsolatedReport::Curve(arc.into()),
         };
         Self {
@@ -254,8 +256,8 @@ impl From<&BoundaryArc> for ArcReport {
             &ArcCurve::Circle { center, radius, start_angle, end_angle } => {
                 CurveReport::Circle { center, radius, start_angle, end_angle }
             }
-            ArcCurve::Coupler(coupler) => CurveReport::Coupler(coupler.into()),
-            ArcCurve::Ellipse(coupler) => CurveReport::Ellipse(coupler.into()),
+            ArcCurve::Coupler(coupler) => CurveReport::Coupler(coupler.as_ref().into()),
+            ArcCurve::Ellipse(coupler) => CurveReport::Ellipse(coupler.as_ref().into()),
         };
         Self { curve, start: arc.start, end: arc.end, active: arc.active.iter().map(ToString::to_string).collect() }
     }
