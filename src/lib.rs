@@ -122,11 +122,12 @@ pub use solve::{
 
 pub use spatial::{
     ArcCircle, ArcRegion, Capability, CapabilityMap, CapabilityStop, CapabilitySupremum, CartesianRobot,
-    CartesianSingular, Hana, HanaAssemblies, HanaAssembly, HanaFamily, HanaMode, HanaPose, HanaSingularKind,
-    HanaSingularity, HanaUnreachable, HanaVelocity, HanaViolation, HanaWay, HanaWays, HanaWorkspaceError, Hexapteron,
-    MixedReach, MixedSingularity, Orientations, PlaneConditions, Quadrupteron, SpatialError, Tilt, TiltLimit, Tripod,
-    TripodAssemblies, TripodAssembly, TripodError, TripodLeg, TripodPose, TripodReach, TripodSingularity, TripodStatus,
-    TripodVelocity, Tripteron, WorkspaceArc,
+    CartesianSingular, Counted, DeterminantPoint, Hana, HanaAssemblies, HanaAssembly, HanaCapabilityError, HanaFamily,
+    HanaMode, HanaPose, HanaSingularKind, HanaSingularity, HanaUnreachable, HanaVelocity, HanaViolation, HanaWay,
+    HanaWays, Hexapteron, LinkCurve, MixedReach, MixedSingularity, Orientations, PlaneConditions, Quadrupteron,
+    SpatialError, SpatialRemark, Tilt, TiltLimit, Tripod, TripodAssemblies, TripodAssembly, TripodDesign, TripodError,
+    TripodLeg, TripodPose, TripodReach, TripodSingularity, TripodStatus, TripodVelocity, Tripteron, WorkspaceArc,
+    WorkspaceCurve,
 };
 
 /// The README's code runs as a test.

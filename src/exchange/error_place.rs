@@ -8,7 +8,7 @@ use super::error::{FieldProblem, FileError};
 use super::questions::LociError;
 use crate::linkage::{CouplerError, GroupError, LinkageError, PinnedDyadError, TriadError, TrussError};
 use crate::manipulator::{DescriptionError, DesignError, KinematicsError, LockError, LocusError, PathError};
-use crate::spatial::{HanaWorkspaceError, SpatialError, TripodError};
+use crate::spatial::{HanaCapabilityError, SpatialError, TripodError};
 use crate::workspace::WorkspaceError;
 
 /// Where an error lies: file, row, leg, joint, field, and the value found there. Counted from 1.
@@ -270,15 +270,13 @@ impl From<&TripodError> for ErrorPlace {
     }
 }
 
-impl From<&HanaWorkspaceError> for ErrorPlace {
-    fn from(error: &HanaWorkspaceError) -> Self {
-        use HanaWorkspaceError as E;
+impl From<&HanaCapabilityError> for ErrorPlace {
+    fn from(error: &HanaCapabilityError) -> Self {
+        use HanaCapabilityError as E;
         match error {
             E::Question(error) => error.into(),
             E::OppositeSides { mode } => Self::field("mode").and_value(FoundValue::Text(mode.to_string())),
             E::DifferentStrokes => Self::field("strokes"),
-            E::LargePlatform { r, .. } => Self::field("r").and_value(FoundValue::Number(*r)),
-            E::NoArc { beyond } => Self::field("y").and_value(FoundValue::Number(*beyond)),
         }
     }
 }

@@ -16,9 +16,7 @@ use std::process::ExitCode;
 
 use args::{Arguments, Asked, Command};
 use assur::Manipulator;
-use assur::exchange::{
-    AngleUnit, CheckReport, ClaimedPoses, ForwardReport, ModelFile, Subject, VerifyReport, read_triad,
-};
+use assur::exchange::{AngleUnit, AnyCheck, ClaimedPoses, ForwardReport, ModelFile, Subject, VerifyReport, read_triad};
 use clap::{CommandFactory, Parser};
 use output::{Failure, Files};
 
@@ -33,7 +31,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     match arguments.command {
         Command::New { family, output } => new(&family, output.as_deref()),
         Command::Check { model, json } => {
-            let report = CheckReport::of(&ModelFile::read(&model)?);
+            let report = AnyCheck::read(&model)?;
             output::print(&if json { report.to_json() } else { tables::check(&report) })
         }
         Command::Forward { model, inputs, batch: None, asked, .. } => forward(&model, &inputs, &asked),
