@@ -19,8 +19,9 @@ mod trusses;
 
 pub use couplers::draw_coupler;
 pub use linkages::draw_linkage;
-pub use modes::draw_modes;
+pub use modes::{draw_modes, mode_marks};
 pub use plane::{draw_path, draw_singularities};
+pub use scene::{Look, Mark};
 pub use spatial::{draw_hana, draw_tilt_sections};
 pub use triads::draw_assemblies;
-pub use trusses::draw_truss;
+pub use trusses::{draw_truss, truss_marks};

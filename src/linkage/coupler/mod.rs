@@ -10,6 +10,7 @@ mod count;
 mod curve;
 mod equation;
 mod meet;
+mod nearest;
 mod sextic;
 
 pub use circuits::{Circuit, GrashofClass, InputRange};
