@@ -91,11 +91,13 @@ pub mod eliminate;
 pub mod exchange;
 pub mod linkage;
 pub mod manipulator;
+pub mod plane;
 #[cfg(feature = "plot")]
 pub mod plot;
 pub mod roots;
 pub mod solve;
 pub mod spatial;
+pub mod workspace;
 
 pub use certify::Verdict;
 pub use linkage::{
@@ -106,11 +108,12 @@ pub use linkage::{
     TrussJoint, TwoLinkAssemblies, TwoLinkAssembly, TwoLinkError, TwoLinkGroup, TwoLinkSpecial, triad_degree,
 };
 pub use manipulator::{
-    ActuatorPlane, AssemblyModes, Carried, DescriptionError, FamilyError, FollowedPath, Guided, InverseSpecial,
-    JointKind, JointsError, JointsReason, KinematicsError, Leg, LegLocus, LockError, LockedGroup, LocusError,
-    Manipulator, ManipulatorMode, MapQuantity, ModeChoice, ModeEnd, ModesBatch, PathError, PathEvent, PathEventKind,
-    PathRow, PathSettings, Placement, PlaneCurve, PlaneMap, PlaneWindow, Reading, Remark, SingularMatrix, Singularity,
-    SingularityKind, SingularityLocus, Tracked, Unreachable, Velocity, Violation, WorkingMode, WorkingModes,
+    ActuatorPlane, AssemblyModes, Carried, DescriptionError, DesignCoordinate, DesignError, DesignKey, DesignNumber,
+    DesignPart, FamilyError, FollowedPath, Guided, InverseSpecial, JointKind, JointsError, JointsReason,
+    KinematicsError, Leg, LegLocus, LockError, LockedGroup, LocusError, Manipulator, ManipulatorMode, MapQuantity,
+    ModeChoice, ModeEnd, ModesBatch, ModesPlaces, PathError, PathEvent, PathEventKind, PathRow, PathSettings,
+    Placement, PlaneCurve, PlaneMap, PlaneWindow, Reading, Remark, SingularMatrix, Singularity, SingularityKind,
+    SingularityLocus, Tracked, Unreachable, Velocity, Violation, WorkingMode, WorkingModes,
 };
 pub use solve::{
     Account, Eliminant, EliminateError, Outcome, Plan, RejectedRoot, RootRejection, Solution, Solutions, SolveError,
@@ -119,11 +122,12 @@ pub use solve::{
 
 pub use spatial::{
     ArcCircle, ArcRegion, Capability, CapabilityMap, CapabilityStop, CapabilitySupremum, CartesianRobot,
-    CartesianSingular, Hana, HanaAssemblies, HanaAssembly, HanaFamily, HanaMode, HanaPose, HanaSingularKind,
-    HanaSingularity, HanaUnreachable, HanaVelocity, HanaViolation, HanaWay, HanaWays, HanaWorkspaceError, Hexapteron,
-    MixedReach, MixedSingularity, Orientations, PlaneConditions, Quadrupteron, SpatialError, Tilt, TiltLimit, Tripod,
-    TripodAssemblies, TripodAssembly, TripodError, TripodLeg, TripodPose, TripodReach, TripodSingularity, TripodStatus,
-    TripodVelocity, Tripteron, WorkspaceArc,
+    CartesianSingular, Counted, DeterminantPoint, Hana, HanaAssemblies, HanaAssembly, HanaCapabilityError, HanaFamily,
+    HanaMode, HanaPose, HanaSingularKind, HanaSingularity, HanaUnreachable, HanaVelocity, HanaViolation, HanaWay,
+    HanaWays, Hexapteron, LinkCurve, MixedReach, MixedSingularity, Orientations, PlaneConditions, Quadrupteron,
+    SpatialError, SpatialRemark, Tilt, TiltLimit, Tripod, TripodAssemblies, TripodAssembly, TripodDesign, TripodError,
+    TripodLeg, TripodPose, TripodReach, TripodSingularity, TripodStatus, TripodVelocity, Tripteron, WorkspaceArc,
+    WorkspaceCurve,
 };
 
 /// The README's code runs as a test.

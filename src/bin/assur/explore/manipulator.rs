@@ -10,6 +10,7 @@ use serde_json::{Value, json};
 use super::drawing::marks;
 use super::handles::{Pull, Wish, handles};
 use super::question::{model_value, read_model};
+use super::workspace::{WorkspaceQuestion, workspace};
 
 /// A pull on a mechanism, or none: then what it is like as it stands.
 #[derive(Deserialize)]
@@ -22,6 +23,7 @@ pub(crate) struct MoveQuestion {
     #[serde(default)]
     pick: bool,
     pull: Option<Pull>,
+    workspace: Option<WorkspaceQuestion>,
 }
 
 #[derive(Deserialize)]
@@ -87,6 +89,7 @@ pub(crate) fn moved(question: &MoveQuestion) -> Result<Value, String> {
         "handles": handles(robot, pose),
         "actuators": actuators(robot),
         "size": robot.characteristic_length(),
+        "workspace": question.workspace.map(|question| workspace(robot, question, pose)),
     }))
 }
 

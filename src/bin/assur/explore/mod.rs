@@ -13,6 +13,7 @@ mod manipulator;
 mod question;
 mod server;
 mod socket;
+mod workspace;
 
 use std::path::Path;
 use std::sync::Arc;
