@@ -24,16 +24,25 @@ mod assembly;
 mod boundary;
 mod constant;
 mod folds;
+mod gradient;
 mod leg;
 mod limits;
 mod membership;
+#[cfg(feature = "optimise")]
+mod optimise;
 mod reach;
 mod region;
+mod stack;
 mod total;
+mod void;
 
 pub use boundary::{ArcCurve, BoundaryArc};
 pub use folds::CouplerArc;
 pub use limits::{ActiveLimit, Limit, LimitCause, WorkspaceError, WorkspaceModes};
 pub use membership::Membership;
+#[cfg(feature = "optimise")]
+pub use optimise::{DesignChoice, Optimum};
 pub use reach::Reach;
 pub use region::{Isolated, Loop, Region, Workspace, WorkspaceKind};
+pub use stack::Stack;
+pub use void::StrokeVoid;

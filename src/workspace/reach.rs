@@ -75,6 +75,22 @@ impl Reach {
         self.legs.len()
     }
 
+    /// The limits of one leg (from 0) alone, as if the platform hung on no other.
+    ///
+    /// ```
+    /// use assur::workspace::{WorkspaceKind, WorkspaceModes};
+    /// # let (mut robot, _) = assur::Manipulator::of_family("3-RPR")?;
+    /// # robot.legs.iter_mut().for_each(|leg| leg.limits[1] = Some([5.0, 14.0]));
+    /// let own = robot.reach(&WorkspaceModes::Both)?.only(1).workspace(&WorkspaceKind::Constant { phi: 0.3 })?;
+    /// let ring = std::f64::consts::PI * (14.0 * 14.0 - 5.0 * 5.0);
+    /// assert!((own.region.area - ring).abs() < 1e-10 && own.region.holes == 1);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn only(&self, leg: usize) -> Self {
+        Self { legs: vec![self.legs[leg].clone()], edges: vec![self.edges[leg].clone()], size: self.size }
+    }
+
     /// The mechanism's largest length: the scale of roundings.
     pub fn size(&self) -> f64 {
         self.size
