@@ -45,6 +45,8 @@ pub(super) struct LegReach {
     pub(super) a: Vector2<f64>,
     /// Platform pivot from the reference point, platform frame.
     pub(super) b: Vector2<f64>,
+    /// The reference point in the platform frame.
+    pub(super) reference: Vector2<f64>,
     /// Range of the stroke; infinite where there is none.
     pub(super) stroke: [f64; 2],
     /// Sector of the first joint (of a PRR leg: of joint 2).
@@ -92,6 +94,7 @@ impl LegReach {
             chain: Chain::Rpr { offset: 0.0 },
             a: leg.base.at,
             b: leg.platform.at - reference,
+            reference,
             stroke: [f64::NEG_INFINITY, f64::INFINITY],
             base_sector: None,
             elbow_sector: None,
@@ -336,6 +339,15 @@ impl LegReach {
                 merge(LimitCause::Right, Dyad::PR { a: a - left(e) * l, u: e, b }, -1.0);
             }
         }
+        out
+    }
+
+    /// The leg in one of its working modes.
+    pub(super) fn in_mode(&self, plus: bool) -> Self {
+        let mut out = self.clone();
+        out.modes = [self.modes[0] && plus, self.modes[1] && !plus];
+        out.limits.retain(|limit| limit.mode.is_none_or(|mode| mode == plus));
+        out.ring = out.find_ring();
         out
     }
 
