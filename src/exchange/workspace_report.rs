@@ -254,8 +254,8 @@ impl From<&BoundaryArc> for ArcReport {
             &ArcCurve::Circle { center, radius, start_angle, end_angle } => {
                 CurveReport::Circle { center, radius, start_angle, end_angle }
             }
-            ArcCurve::Coupler(coupler) => CurveReport::Coupler(coupler.into()),
-            ArcCurve::Ellipse(coupler) => CurveReport::Ellipse(coupler.into()),
+            ArcCurve::Coupler(coupler) => CurveReport::Coupler(coupler.as_ref().into()),
+            ArcCurve::Ellipse(coupler) => CurveReport::Ellipse(coupler.as_ref().into()),
         };
         Self { curve, start: arc.start, end: arc.end, active: arc.active.iter().map(ToString::to_string).collect() }
     }
