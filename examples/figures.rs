@@ -27,12 +27,16 @@ fn figures() -> Vec<Figure> {
     let constant = |phi: f64| WorkspaceKind::Constant { phi: phi.to_radians() };
     let inclusive = |to: f64| WorkspaceKind::Inclusive(degrees(0.0, to));
     let total = |from: f64, to: f64| WorkspaceKind::Total(degrees(from, to));
-    let with_maximal = |phis: &[f64]| {
-        std::iter::once(WorkspaceKind::Maximal).chain(phis.iter().map(|phi| constant(*phi))).collect()
-    };
+    let with_maximal =
+        |phis: &[f64]| std::iter::once(WorkspaceKind::Maximal).chain(phis.iter().map(|phi| constant(*phi))).collect();
     let figure = |file, model, kinds, printed| Figure { file, model, kinds, legs: false, printed };
     vec![
-        figure("fig-04", "table1-1a", with_maximal(&[210.0, 225.0, 240.0, 255.0, 270.0, 285.0]), "4-5 each constant one"),
+        figure(
+            "fig-04",
+            "table1-1a",
+            with_maximal(&[210.0, 225.0, 240.0, 255.0, 270.0, 285.0]),
+            "4-5 each constant one",
+        ),
         figure("fig-11-left", "table1-1a", vec![WorkspaceKind::Maximal], "4216"),
         figure("fig-11-right", "table1-2a", vec![WorkspaceKind::Maximal], "5699"),
         figure("fig-12-left", "table1-3a", vec![WorkspaceKind::Maximal], "14016"),
@@ -84,7 +88,13 @@ fn main() -> Result<(), Box<dyn Error>> {
                 best = best.min(start.elapsed().as_secs_f64() * 1e3);
             }
             let workspace = found.ok_or("asked at least once")?;
-            println!("{:<14} {:<28} {:>14.6} {best:>10.3}   {}", figure.file, name(kind), workspace.region.area, figure.printed);
+            println!(
+                "{:<14} {:<28} {:>14.6} {best:>10.3}   {}",
+                figure.file,
+                name(kind),
+                workspace.region.area,
+                figure.printed
+            );
             drawn.push(workspace);
         }
         let layers: Vec<WorkspaceLayer> =

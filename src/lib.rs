@@ -108,11 +108,12 @@ pub use linkage::{
     TrussJoint, TwoLinkAssemblies, TwoLinkAssembly, TwoLinkError, TwoLinkGroup, TwoLinkSpecial, triad_degree,
 };
 pub use manipulator::{
-    AssemblyModes, DescriptionError, DesignCoordinate, DesignError, DesignKey, DesignNumber, DesignPart, FamilyError, FollowedPath, InverseSpecial, JointKind, JointsError, JointsReason,
-    KinematicsError, Leg, LegLocus, LockError, LockedGroup, LocusError, Manipulator, ManipulatorMode, MapQuantity,
-    ModeChoice, ModesBatch, ModesPlaces, PathError, PathEvent, PathEventKind, PathRow, PathSettings, Placement,
-    PlaneCurve, PlaneMap, PlaneWindow, Reading, Remark, SingularMatrix, Singularity, SingularityKind, SingularityLocus,
-    Unreachable, Velocity, Violation, WorkingMode, WorkingModes,
+    AssemblyModes, DescriptionError, DesignCoordinate, DesignError, DesignKey, DesignNumber, DesignPart, FamilyError,
+    FollowedPath, InverseSpecial, JointKind, JointsError, JointsReason, KinematicsError, Leg, LegLocus, LockError,
+    LockedGroup, LocusError, Manipulator, ManipulatorMode, MapQuantity, ModeChoice, ModesBatch, ModesPlaces, PathError,
+    PathEvent, PathEventKind, PathRow, PathSettings, Placement, PlaneCurve, PlaneMap, PlaneWindow, Reading, Remark,
+    SingularMatrix, Singularity, SingularityKind, SingularityLocus, Unreachable, Velocity, Violation, WorkingMode,
+    WorkingModes,
 };
 pub use solve::{
     Account, Eliminant, EliminateError, Outcome, Plan, RejectedRoot, RootRejection, Solution, Solutions, SolveError,

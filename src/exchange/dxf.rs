@@ -49,7 +49,8 @@ impl Entities {
                 self.pair(40, real(*radius));
                 if !full {
                     // DXF arcs run counter-clockwise, in degrees.
-                    let (from, to) = if start_angle < end_angle { (start_angle, end_angle) } else { (end_angle, start_angle) };
+                    let (from, to) =
+                        if start_angle < end_angle { (start_angle, end_angle) } else { (end_angle, start_angle) };
                     self.pair(50, real(from.rem_euclid(TAU).to_degrees()));
                     self.pair(51, real(to.rem_euclid(TAU).to_degrees()));
                 }

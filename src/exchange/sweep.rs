@@ -37,7 +37,9 @@ pub enum SweepError {
     #[error(transparent)]
     Design(#[from] DesignError),
     /// A measure is no `WHAT:KIND`.
-    #[error("\"{text}\": must be WHAT:KIND with WHAT one of area, perimeter, components, holes, xmin, ymin, xmax, ymax, as in area:maximal")]
+    #[error(
+        "\"{text}\": must be WHAT:KIND with WHAT one of area, perimeter, components, holes, xmin, ymin, xmax, ymax, as in area:maximal"
+    )]
     Measure {
         /// The text found.
         text: String,
@@ -389,7 +391,8 @@ impl SweepTable {
 
     fn write_parquet(&self, out: &mut Vec<u8>) -> parquet::errors::Result<()> {
         let field = |name: &str, kind, repetition, meaning| {
-            let field = Type::primitive_type_builder(name, kind).with_repetition(repetition).with_converted_type(meaning);
+            let field =
+                Type::primitive_type_builder(name, kind).with_repetition(repetition).with_converted_type(meaning);
             Arc::new(field.build().expect("a plain column"))
         };
         let mut fields = vec![field("row", PhysicalType::INT64, Repetition::REQUIRED, ConvertedType::NONE)];
@@ -397,7 +400,9 @@ impl SweepTable {
             self.names.iter().map(|name| field(name, PhysicalType::DOUBLE, Repetition::REQUIRED, ConvertedType::NONE)),
         );
         fields.extend(
-            self.measures.iter().map(|name| field(name, PhysicalType::DOUBLE, Repetition::OPTIONAL, ConvertedType::NONE)),
+            self.measures
+                .iter()
+                .map(|name| field(name, PhysicalType::DOUBLE, Repetition::OPTIONAL, ConvertedType::NONE)),
         );
         fields.push(field("reason", PhysicalType::BYTE_ARRAY, Repetition::OPTIONAL, ConvertedType::UTF8));
         let schema = Type::group_type_builder("designs").with_fields(fields).build().expect("columns of a table");

@@ -92,7 +92,10 @@ enum Field {
     Reference(usize),
     Placement(DesignPart, DesignCoordinate),
     /// The joint from 0, or the leg's only driven one.
-    Limit { joint: Option<usize>, max: bool },
+    Limit {
+        joint: Option<usize>,
+        max: bool,
+    },
 }
 
 /// Why a name stands for no number of a design.
@@ -172,7 +175,9 @@ fn parse(text: &str) -> Option<DesignKey> {
         (Which::Reference, ["x"]) => Field::Reference(0),
         (Which::Reference, ["y"]) => Field::Reference(1),
         (Which::Reference, _) => return None,
-        (_, [limits, end @ ("min" | "max")]) if limits.starts_with("limits") || limits.starts_with("passive_limits") => {
+        (_, [limits, end @ ("min" | "max")])
+            if limits.starts_with("limits") || limits.starts_with("passive_limits") =>
+        {
             let stem = if limits.starts_with("limits") { "limits" } else { "passive_limits" };
             let joint = if *limits == "limits" { None } else { Some(counted(limits, stem, 3)? - 1) };
             Field::Limit { joint, max: *end == "max" }
@@ -209,10 +214,8 @@ impl DesignKey {
     pub fn numbers(&self, robot: &Manipulator) -> Result<Vec<DesignNumber>, DesignError> {
         let legs = robot.legs.len();
         let of = |leg: usize| -> Result<DesignNumber, DesignError> {
-            let one = robot
-                .legs
-                .get(leg)
-                .ok_or_else(|| DesignError::NoLeg { key: self.text.clone(), leg: leg + 1, legs })?;
+            let one =
+                robot.legs.get(leg).ok_or_else(|| DesignError::NoLeg { key: self.text.clone(), leg: leg + 1, legs })?;
             match self.field {
                 Field::Reference(axis) => Ok(DesignNumber::Reference(axis)),
                 Field::Placement(part, number) => Ok(DesignNumber::Placement { leg, part, number }),
@@ -325,9 +328,19 @@ mod tests {
 
     #[test]
     fn names_that_are_none_are_refused() {
-        for text in
-            ["", "leg0.base.at.x", "leg1", "leg1.base", "leg1.links3", "leg1.limits", "leg1.limits4.min", "reference", "legx.base.at.x", "leg1.base.at.z", "leg1.platform"]
-        {
+        for text in [
+            "",
+            "leg0.base.at.x",
+            "leg1",
+            "leg1.base",
+            "leg1.links3",
+            "leg1.limits",
+            "leg1.limits4.min",
+            "reference",
+            "legx.base.at.x",
+            "leg1.base.at.z",
+            "leg1.platform",
+        ] {
             assert!(text.parse::<DesignKey>().is_err(), "{text}");
         }
     }
@@ -336,7 +349,14 @@ mod tests {
     fn what_is_set_is_read_back() {
         let (mut robot, _) = Manipulator::of_family("3-RPR").expect("a family");
         robot.legs.iter_mut().for_each(|leg| leg.limits = [Some([0.0, 1.0]), Some([5.0, 9.0]), None]);
-        let keys = ["leg1.base.at.x", "leg2.platform.angle", "legs.limits.max", "leg3.limits1.min", "leg1.links2.at.y", "reference.y"];
+        let keys = [
+            "leg1.base.at.x",
+            "leg2.platform.angle",
+            "legs.limits.max",
+            "leg3.limits1.min",
+            "leg1.links2.at.y",
+            "reference.y",
+        ];
         for (k, text) in keys.into_iter().enumerate() {
             let key: DesignKey = text.parse().expect("a name");
             let value = 0.25 + 0.1 * k as f64;
@@ -347,9 +367,15 @@ mod tests {
             assert_eq!(key.to_string(), text);
         }
         let none: DesignKey = "leg1.limits3.min".parse().expect("a name");
-        assert_eq!(none.numbers(&robot).unwrap_err().to_string(), "leg 1: joint 3 has no limits in the model; give it some to vary them");
+        assert_eq!(
+            none.numbers(&robot).unwrap_err().to_string(),
+            "leg 1: joint 3 has no limits in the model; give it some to vary them"
+        );
         let far: DesignKey = "leg4.base.at.x".parse().expect("a name");
-        assert_eq!(far.numbers(&robot).unwrap_err().to_string(), "\"leg4.base.at.x\": there is no leg 4, the model has 3");
+        assert_eq!(
+            far.numbers(&robot).unwrap_err().to_string(),
+            "\"leg4.base.at.x\": there is no leg 4, the model has 3"
+        );
         assert!("leg1.limits1.max".parse::<DesignKey>().expect("a name").is_angle(&robot));
         assert!(!"leg1.limits.max".parse::<DesignKey>().expect("a name").is_angle(&robot));
     }

@@ -114,7 +114,8 @@ pub fn draw_workspaces(robot: &Manipulator, layers: &[WorkspaceLayer], legs: &[R
                 if !kinds.contains(&kind) {
                     kinds.push(kind);
                 }
-                strokes = strokes.add(stroke(self::outline(&chart, std::slice::from_ref(arc), false), kind.colour(), 2.2));
+                strokes =
+                    strokes.add(stroke(self::outline(&chart, std::slice::from_ref(arc), false), kind.colour(), 2.2));
             }
             kinds.sort();
             legend = legend.add(label(&layer.name, x, y, 12.5).set("font-weight", "bold"));
@@ -154,9 +155,12 @@ pub fn draw_workspaces(robot: &Manipulator, layers: &[WorkspaceLayer], legs: &[R
         if alone && !separating.is_empty() {
             let line = |d: String| stroke(d, INK, 0.9).set("stroke-dasharray", "3 2.5");
             strokes = strokes.add(line(separating));
-            legend = legend
-                .add(line(format!("M{x} {:.2}h22", y - 4.0)))
-                .add(label("inside: a way of reaching ends", x + 28.0, y, 10.5));
+            legend = legend.add(line(format!("M{x} {:.2}h22", y - 4.0))).add(label(
+                "inside: a way of reaching ends",
+                x + 28.0,
+                y,
+                10.5,
+            ));
             y += 18.0;
         }
     }
@@ -168,9 +172,12 @@ pub fn draw_workspaces(robot: &Manipulator, layers: &[WorkspaceLayer], legs: &[R
         if !outline.is_empty() {
             dashed = dashed.add(line(outline));
         }
-        legend = legend
-            .add(line(format!("M{x} {:.2}h22", y - 4.0)))
-            .add(label(&format!("leg {} alone", leg + 1), x + 28.0, y, 11.5));
+        legend = legend.add(line(format!("M{x} {:.2}h22", y - 4.0))).add(label(
+            &format!("leg {} alone", leg + 1),
+            x + 28.0,
+            y,
+            11.5,
+        ));
         y += 18.0;
     }
     let (title, family) = heading(robot);

@@ -122,7 +122,8 @@ impl Nearby {
                 found.limits = (0..limits.len())
                     .map(|k| {
                         let wanted = rank(limits, k);
-                        let twin = |all: &Vec<Limit>| all.iter().filter(|limit| same(limit, &limits[k])).nth(wanted).copied();
+                        let twin =
+                            |all: &Vec<Limit>| all.iter().filter(|limit| same(limit, &limits[k])).nth(wanted).copied();
                         let twins: Vec<Limit> = of_each.iter().map_while(twin).collect();
                         twins.try_into().ok()
                     })
@@ -253,8 +254,10 @@ impl Held<'_> {
             [(k, ..)] => vec![(*k, 1.0)],
             [(i, _, by_i), (j, _, by_j), ..] => vec![(*i, *by_j), (*j, -by_i)],
         };
-        let normal: Vector2<f64> =
-            weighted.iter().map(|(k, w)| pushes.iter().find(|push| push.0 == *k).map_or(Vector2::zeros(), |push| push.1) * *w).sum();
+        let normal: Vector2<f64> = weighted
+            .iter()
+            .map(|(k, w)| pushes.iter().find(|push| push.0 == *k).map_or(Vector2::zeros(), |push| push.1) * *w)
+            .sum();
         let across = normal.dot(&outward);
         if across == 0.0 {
             return none();

@@ -39,9 +39,9 @@ pub use boundary::{ArcCurve, BoundaryArc};
 pub use folds::CouplerArc;
 pub use limits::{ActiveLimit, Limit, LimitCause, WorkspaceError, WorkspaceModes};
 pub use membership::Membership;
-pub use reach::Reach;
-pub use region::{Isolated, Loop, Region, Workspace, WorkspaceKind};
 #[cfg(feature = "optimise")]
 pub use optimise::{DesignChoice, Optimum};
+pub use reach::Reach;
+pub use region::{Isolated, Loop, Region, Workspace, WorkspaceKind};
 pub use stack::Stack;
 pub use void::StrokeVoid;

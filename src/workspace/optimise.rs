@@ -75,7 +75,9 @@ impl Manipulator {
         let area_before = self.workspace(kind, modes)?.region.area;
         let given: Vec<f64> = choices
             .iter()
-            .map(|choice| choice.numbers.first().and_then(|number| self.design_number(*number).ok()).unwrap_or_default())
+            .map(|choice| {
+                choice.numbers.first().and_then(|number| self.design_number(*number).ok()).unwrap_or_default()
+            })
             .collect();
         let hill = Hill {
             robot: self,
@@ -95,7 +97,9 @@ impl Manipulator {
             let values: Vec<f64> = choices
                 .iter()
                 .enumerate()
-                .map(|(k, choice)| choice.bounds[0] + (choice.bounds[1] - choice.bounds[0]) * spread(index, k, choices.len(), count))
+                .map(|(k, choice)| {
+                    choice.bounds[0] + (choice.bounds[1] - choice.bounds[0]) * spread(index, k, choices.len(), count)
+                })
                 .collect();
             starts.push((hill.area(&values), values));
         }
@@ -106,7 +110,8 @@ impl Manipulator {
             let none: [&dyn Func<()>; 0] = [];
             for (_, values) in starts.into_iter().take(CLIMBS).filter(|start| start.0 > 0.0) {
                 let parts: Vec<f64> = values.iter().zip(choices).map(|(x, choice)| part(*x, choice.bounds)).collect();
-                let fall = |parts: &[f64], gradient: Option<&mut [f64]>, (): &mut ()| hill.fall(parts, gradient, highest);
+                let fall =
+                    |parts: &[f64], gradient: Option<&mut [f64]>, (): &mut ()| hill.fall(parts, gradient, highest);
                 let level = StopTols { ftol_rel: LEVEL, ..StopTols::default() };
                 // A climb that gets stuck at a kink ends with an error; what it found on the way is kept all the same.
                 let _ = minimize(fall, &parts, &bounds, &none, (), CLIMB, Some(level));
@@ -195,8 +200,9 @@ impl Hill<'_> {
             let workspace = design.as_ref().and_then(|robot| robot.workspace(self.kind, self.modes).ok());
             if let (Some(robot), Some(workspace)) = (design, workspace) {
                 for (slope, choice) in gradient.iter_mut().zip(self.choices) {
-                    let by_number: f64 =
-                        robot.area_gradient(&workspace, self.modes, &choice.numbers).map_or(0.0, |all| all.iter().sum());
+                    let by_number: f64 = robot
+                        .area_gradient(&workspace, self.modes, &choice.numbers)
+                        .map_or(0.0, |all| all.iter().sum());
                     *slope = -by_number * (choice.bounds[1] - choice.bounds[0]) / highest;
                 }
             }

@@ -33,7 +33,9 @@ fn compare(kinds: std::ops::Range<usize>, cases: u64) {
     for number in 0..cases * scale() {
         let trouble = TROUBLES[(number / 10 % 10) as usize];
         // At these the area has kinks by construction.
-        if [Trouble::Sliver, Trouble::Tangent, Trouble::ReferenceInPivot, Trouble::Symmetric, Trouble::CoincidentBases].contains(&trouble) {
+        if [Trouble::Sliver, Trouble::Tangent, Trouble::ReferenceInPivot, Trouble::Symmetric, Trouble::CoincidentBases]
+            .contains(&trouble)
+        {
             continue;
         }
         let case = random_case(number, trouble);
@@ -108,7 +110,13 @@ fn a_stack_has_the_volume_of_its_slices() {
     let count = 2000;
     let step = 0.5 / f64::from(count);
     let sum: f64 = (0..count)
-        .map(|k| reach.workspace(&WorkspaceKind::Constant { phi: 4.0 + step * (f64::from(k) + 0.5) }).expect("is covered").region.area)
+        .map(|k| {
+            reach
+                .workspace(&WorkspaceKind::Constant { phi: 4.0 + step * (f64::from(k) + 0.5) })
+                .expect("is covered")
+                .region
+                .area
+        })
         .sum();
     assert!((stack.volume - sum * step).abs() < 1e-5 * stack.volume, "{} and {}", stack.volume, sum * step);
     assert!(stack.volume_error < 1e-6 * stack.volume, "{}", stack.volume_error);

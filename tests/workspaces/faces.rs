@@ -48,7 +48,10 @@ fn number(value: &Value) -> f64 {
 fn the_report_is_the_contracts() {
     let file = model("table1-4c");
     let report = json(&["workspace", &file, "dextrous", "--json"]);
-    assert_eq!((report["schema"].as_str(), report["kind"].as_str(), report["status"].as_str()), (Some("assur/workspace/1"), Some("dextrous"), Some("complete")));
+    assert_eq!(
+        (report["schema"].as_str(), report["kind"].as_str(), report["status"].as_str()),
+        (Some("assur/workspace/1"), Some("dextrous"), Some("complete"))
+    );
     let loops = report["loops"].as_array().expect("a list");
     let sum: f64 = loops.iter().map(|one| number(&one["area"])).sum();
     assert!((sum - number(&report["area"])).abs() < 1e-9 && number(&report["area"]) > 0.0);
@@ -68,12 +71,18 @@ fn the_report_is_the_contracts() {
     assert!(bbox[0] < bbox[2] && bbox[1] < bbox[3]);
     let maximal = json(&["workspace", &model("table1-1a"), "maximal", "--json"]);
     assert!((number(&maximal["area"]) - 315.848_147).abs() < 1e-4, "{}", maximal["area"]);
-    let arcs = maximal["loops"].as_array().expect("a list").iter().flat_map(|one| one["arcs"].as_array().expect("a list"));
+    let arcs =
+        maximal["loops"].as_array().expect("a list").iter().flat_map(|one| one["arcs"].as_array().expect("a list"));
     let couplers: Vec<&Value> = arcs.filter(|arc| arc["curve"] == "coupler").collect();
     assert!(!couplers.is_empty());
     for arc in couplers {
         assert_eq!(arc["pair"].as_array().map(Vec::len), Some(2), "{arc}");
-        assert!(arc["pair"][0]["type"] == "RR" && arc["sigma"].is_number() && arc["phi_start"].is_number() && arc["phi_end"].is_number());
+        assert!(
+            arc["pair"][0]["type"] == "RR"
+                && arc["sigma"].is_number()
+                && arc["phi_start"].is_number()
+                && arc["phi_end"].is_number()
+        );
     }
 }
 
@@ -109,8 +118,10 @@ fn tables_tell_pieces_holes_and_isolated_parts() {
 fn points_are_told_apart() {
     let folder = folder("workspace-points");
     let points = folder.join("points.csv");
-    std::fs::write(&points, "x,y\n-2.141140781958235,22.68958554437981\n3.9377688010441325,13.036238052856476\n").expect("writes");
-    let report = json(&["workspace", &model("table1-1a"), "maximal", "--points", points.to_str().expect("plain"), "--json"]);
+    std::fs::write(&points, "x,y\n-2.141140781958235,22.68958554437981\n3.9377688010441325,13.036238052856476\n")
+        .expect("writes");
+    let report =
+        json(&["workspace", &model("table1-1a"), "maximal", "--points", points.to_str().expect("plain"), "--json"]);
     let found = report["points"].as_array().expect("a list");
     assert_eq!((found[0]["inside"].as_bool(), found[1]["inside"].as_bool()), (Some(true), Some(false)));
     assert!(number(&found[0]["margin"]) > 0.0 && number(&found[1]["margin"]) < 0.0);
@@ -125,7 +136,23 @@ fn pictures_and_drawings_are_written_together() {
     let path = |name: &str| folder.join(name).display().to_string();
     let [svg, png, dxf, csv] = ["w.svg", "w.png", "w.dxf", "w.csv"].map(path);
     let file = model("table1-2c");
-    text(&["workspace", &file, "maximal", "--svg", &svg, "--png", &png, "--dxf", &dxf, "--csv", &csv, "--overlay", "dextrous", "--overlay", "constant:20"]);
+    text(&[
+        "workspace",
+        &file,
+        "maximal",
+        "--svg",
+        &svg,
+        "--png",
+        &png,
+        "--dxf",
+        &dxf,
+        "--csv",
+        &csv,
+        "--overlay",
+        "dextrous",
+        "--overlay",
+        "constant:20",
+    ]);
     let svg = std::fs::read_to_string(&svg).expect("is there");
     assert!(svg.contains("maximal") && svg.contains("constant, φ = 20°") && svg.contains("area "), "a legend");
     assert!(std::fs::read(&png).expect("is there").starts_with(b"\x89PNG"));
@@ -149,13 +176,25 @@ fn pictures_and_drawings_are_written_together() {
 #[test]
 fn slices_gradients_and_searches_are_told() {
     let file = model("table1-4c");
-    let report = json(&["workspace", &file, "dextrous", "--slices=5", "--gradient=legs.limits.max", "--gradient=leg1.base.at.x", "--json"]);
+    let report = json(&[
+        "workspace",
+        &file,
+        "dextrous",
+        "--slices=5",
+        "--gradient=legs.limits.max",
+        "--gradient=leg1.base.at.x",
+        "--json",
+    ]);
     let stack = &report["stack"];
     assert_eq!(stack["slices"].as_array().map(Vec::len), Some(5));
     // The volume over a whole turn lies between the smallest and the largest slice.
-    let areas: Vec<f64> = stack["slices"].as_array().expect("a list").iter().map(|slice| number(&slice["area"])).collect();
+    let areas: Vec<f64> =
+        stack["slices"].as_array().expect("a list").iter().map(|slice| number(&slice["area"])).collect();
     let mean = number(&stack["volume"]) / std::f64::consts::TAU;
-    assert!(mean > 0.5 * areas.iter().copied().fold(f64::INFINITY, f64::min) && mean < 2.0 * areas.iter().copied().fold(0.0, f64::max));
+    assert!(
+        mean > 0.5 * areas.iter().copied().fold(f64::INFINITY, f64::min)
+            && mean < 2.0 * areas.iter().copied().fold(0.0, f64::max)
+    );
     assert!(number(&report["gradient"]["legs.limits.max"]) > 0.0);
     let best = json(&["workspace", &file, "dextrous", "--optimise=leg1.limits.max=8:12", "--json"]);
     let optimum = &best["optimum"];
@@ -167,7 +206,13 @@ fn slices_gradients_and_searches_are_told() {
 fn sweeps_are_tables_with_reasons() {
     let folder = folder("workspace-sweep");
     let file = model("table1-1a");
-    let arguments = ["sweep", &file, "--vary=leg1.limits.min=6:14:5", "--vary=leg2.platform.at.x=12:13:2", "--report=area:constant:240,holes:maximal"];
+    let arguments = [
+        "sweep",
+        &file,
+        "--vary=leg1.limits.min=6:14:5",
+        "--vary=leg2.platform.at.x=12:13:2",
+        "--report=area:constant:240,holes:maximal",
+    ];
     let csv = text(&arguments);
     let lines: Vec<&str> = csv.lines().collect();
     assert_eq!(lines[0], "row,leg1.limits.min,leg2.platform.at.x,area:constant:240,holes:maximal,reason");
@@ -177,13 +222,22 @@ fn sweeps_are_tables_with_reasons() {
     // The same in the other forms, and whatever the number of threads.
     for name in ["sweep.csv", "sweep.jsonl", "sweep.parquet"] {
         let path = folder.join(name);
-        let output = Command::new(env!("CARGO_BIN_EXE_assur")).args(arguments).arg("--output").arg(&path).env("RAYON_NUM_THREADS", "1").output();
+        let output = Command::new(env!("CARGO_BIN_EXE_assur"))
+            .args(arguments)
+            .arg("--output")
+            .arg(&path)
+            .env("RAYON_NUM_THREADS", "1")
+            .output();
         assert!(output.expect("starts").status.success());
         let bytes = std::fs::read(&path).expect("is there");
         match name {
             "sweep.csv" => assert_eq!(bytes, csv.as_bytes()),
             "sweep.jsonl" => {
-                let rows: Vec<Value> = bytes.split(|b| *b == b'\n').filter(|line| !line.is_empty()).map(|line| serde_json::from_slice(line).expect("JSON")).collect();
+                let rows: Vec<Value> = bytes
+                    .split(|b| *b == b'\n')
+                    .filter(|line| !line.is_empty())
+                    .map(|line| serde_json::from_slice(line).expect("JSON"))
+                    .collect();
                 assert_eq!(rows.len(), 10);
                 assert_eq!(rows[0]["area:constant:240"].to_string(), lines[1].split(',').nth(3).expect("a value"));
                 assert!(rows[9]["reason"].is_string() && rows[9]["area:constant:240"].is_null());
@@ -213,7 +267,10 @@ fn what_cannot_be_asked_is_refused_in_one_line() {
     let cases: [(&[&str], &str); 17] = [
         (&["workspace", &backwards, "maximal"], "must not decrease"),
         (&["workspace", &infinite, "maximal"], "finite"),
-        (&["workspace", &other, "maximal"], "leg 1: workspaces of legs RRP are not covered; those of RPR, RRR and PRR are"),
+        (
+            &["workspace", &other, "maximal"],
+            "leg 1: workspaces of legs RRP are not covered; those of RPR, RRR and PRR are",
+        ),
         (&["workspace", &file, "constant"], "needs --phi"),
         (&["workspace", &file, "total"], "needs --from and --to"),
         (&["workspace", &file, "maximal", "--phi=3"], "takes no --phi"),
@@ -227,7 +284,10 @@ fn what_cannot_be_asked_is_refused_in_one_line() {
         (&["sweep", &file, "--vary=leg1.base.at.x=0:1", "--report=area:maximal"], "must be KEY=A:B:N"),
         (&["sweep", &file, "--vary=leg5.base.at.x=0:1:3", "--report=area:maximal"], "there is no leg 5"),
         (&["sweep", &file, "--vary=leg1.base.at.x=0:1:3", "--report=volume:maximal"], "must be WHAT:KIND"),
-        (&["sweep", &file, "--vary=leg1.base.at.x=0:1:3", "--vary=legs.base.at.x=0:1:3", "--report=area:maximal"], "varied twice"),
+        (
+            &["sweep", &file, "--vary=leg1.base.at.x=0:1:3", "--vary=legs.base.at.x=0:1:3", "--report=area:maximal"],
+            "varied twice",
+        ),
     ];
     for (arguments, expected) in cases {
         let line = refused(arguments);
@@ -244,7 +304,10 @@ fn examples_say_what_to_try() {
         let path = entry.expect("is readable").path();
         let text = std::fs::read_to_string(&path).expect("a model");
         let command = text.lines().find_map(|line| line.strip_prefix("# assur ")).expect("a command to try");
-        let words: Vec<String> = command.split(' ').map(|word| word.replace("examples/", &format!("{}/examples/", env!("CARGO_MANIFEST_DIR")))).collect();
+        let words: Vec<String> = command
+            .split(' ')
+            .map(|word| word.replace("examples/", &format!("{}/examples/", env!("CARGO_MANIFEST_DIR"))))
+            .collect();
         assert!(words[1].ends_with(path.file_name().and_then(|name| name.to_str()).expect("plain")), "{command}");
         let output = run(&words.iter().map(String::as_str).collect::<Vec<_>>());
         assert!(output.status.success(), "{command}: {}", String::from_utf8_lossy(&output.stderr));

@@ -47,7 +47,10 @@ fn check(kinds: &[&str]) {
         let counts = [region.components, region.holes].map(|count| count as u64);
         if [&case["components"], &case["holes"]].map(|count| count.as_u64().unwrap_or_default()) != counts {
             let stable = &case["topology_stable"];
-            wrong.push(format!("{name}: {counts:?} pieces and holes against {} and {} (stable: {stable})", case["components"], case["holes"]));
+            wrong.push(format!(
+                "{name}: {counts:?} pieces and holes against {} and {} (stable: {stable})",
+                case["components"], case["holes"]
+            ));
         }
         if let (Some(bbox), Some(_)) = (region.bbox, case["bbox"].as_array()) {
             let order = [0, 2, 1, 3].map(|k| number(&case["bbox"][k]));
@@ -64,8 +67,8 @@ fn check(kinds: &[&str]) {
             if member.inside != inside && number(&point[3]).abs() > 1e-9 {
                 wrong.push(format!("{name}: {point} found {}", member.inside));
             }
-            let margin_wrong = (member.margin >= 0.0) != member.inside || !member.margin.is_finite();
-            if margin_wrong && !(member.margin.abs() <= 1e-9) {
+            let contradicts = (member.margin >= 0.0) != member.inside && member.margin.abs() > 1e-9;
+            if contradicts || !member.margin.is_finite() {
                 wrong.push(format!("{name}: {point} inside {} with margin {}", member.inside, member.margin));
             }
         }
@@ -78,7 +81,12 @@ fn check(kinds: &[&str]) {
             }
         }
     }
-    assert!(wrong.is_empty(), "{} things wrong in {asked} cases:\n{}", wrong.len(), wrong[..wrong.len().min(40)].join("\n"));
+    assert!(
+        wrong.is_empty(),
+        "{} things wrong in {asked} cases:\n{}",
+        wrong.len(),
+        wrong[..wrong.len().min(40)].join("\n")
+    );
 }
 
 #[test]
@@ -135,13 +143,8 @@ fn the_poses_of_figure_14_are_joined_by_a_motion() {
     // Straight through B3, A1, B1 in line, each step within all limits.
     let robot = golden_manipulator(&golden(), "M1A");
     let reach = robot.reach(&WorkspaceModes::Both).expect("is covered");
-    let through = [
-        (7.0, 20.0, 270.0f64),
-        (9.0, 14.4, 240.0),
-        (12.258, 11.779, 223.86),
-        (9.0, 14.4, 225.0),
-        (7.0, 20.0, 225.0),
-    ];
+    let through =
+        [(7.0, 20.0, 270.0f64), (9.0, 14.4, 240.0), (12.258, 11.779, 223.86), (9.0, 14.4, 225.0), (7.0, 20.0, 225.0)];
     // The way between is found by asking, at each place on it, for the allowed orientation nearest to the last.
     let mut phi = through[0].2.to_radians();
     for pair in through.windows(2) {
@@ -153,9 +156,13 @@ fn the_poses_of_figure_14_are_joined_by_a_motion() {
             // Stay in the interval that holds the last orientation; move towards the wanted one in it.
             let turn = std::f64::consts::TAU;
             let inside = set.intervals().iter().find_map(|&[from, to]| {
-                (-2..=2).map(|k| [from + turn * f64::from(k), to + turn * f64::from(k)]).find(|[from, to]| (*from - 0.02..=*to + 0.02).contains(&phi))
+                (-2..=2)
+                    .map(|k| [from + turn * f64::from(k), to + turn * f64::from(k)])
+                    .find(|[from, to]| (*from - 0.02..=*to + 0.02).contains(&phi))
             });
-            let [from, to] = inside.unwrap_or_else(|| panic!("no way on at {at:?}, phi {}, allowed {:?}", phi.to_degrees(), set.intervals()));
+            let [from, to] = inside.unwrap_or_else(|| {
+                panic!("no way on at {at:?}, phi {}, allowed {:?}", phi.to_degrees(), set.intervals())
+            });
             phi = wanted.clamp(from, to);
         }
     }

@@ -28,12 +28,26 @@ pub fn modes_of(case: &Case) -> WorkspaceModes {
 
 /// A manipulator as a model file, to look into a disagreement with.
 pub fn written(case: &Case) -> String {
-    let mut text = format!("schema = \"assur/manipulator/1\"\nreference = {:?}\n", [case.robot.reference.x, case.robot.reference.y]);
+    let mut text = format!(
+        "schema = \"assur/manipulator/1\"\nreference = {:?}\n",
+        [case.robot.reference.x, case.robot.reference.y]
+    );
     for leg in &case.robot.legs {
-        let frame = |p: &assur::Placement| format!("{{ at = [{:?}, {:?}], direction = [{:?}, {:?}] }}", p.at.x, p.at.y, p.direction.x, p.direction.y);
-        text += &format!("[[leg]]\njoints = \"{}\"\nbase = {}\nlinks = [{}, {}]\nplatform = {}\n", leg.name(), frame(&leg.base), frame(&leg.links[0]), frame(&leg.links[1]), frame(&leg.platform));
+        let frame = |p: &assur::Placement| {
+            format!("{{ at = [{:?}, {:?}], direction = [{:?}, {:?}] }}", p.at.x, p.at.y, p.direction.x, p.direction.y)
+        };
+        text += &format!(
+            "[[leg]]\njoints = \"{}\"\nbase = {}\nlinks = [{}, {}]\nplatform = {}\n",
+            leg.name(),
+            frame(&leg.base),
+            frame(&leg.links[0]),
+            frame(&leg.links[1]),
+            frame(&leg.platform)
+        );
         let of = |actuated: bool| {
-            let ranges = (0..3).filter(|&j| leg.actuated[j] == actuated).filter_map(|j| leg.limits[j].map(|[a, b]| format!("{} = [{a:?}, {b:?}]", j + 1)));
+            let ranges = (0..3)
+                .filter(|&j| leg.actuated[j] == actuated)
+                .filter_map(|j| leg.limits[j].map(|[a, b]| format!("{} = [{a:?}, {b:?}]", j + 1)));
             ranges.collect::<Vec<_>>().join(", ")
         };
         text += &format!("limits = {{ {} }}\npassive_limits = {{ {} }}\n", of(true), of(false));
@@ -45,7 +59,8 @@ pub fn written(case: &Case) -> String {
 fn points(r: &mut Random, oracle: &Oracle, question: Question) -> Vec<[f64; 2]> {
     let reach = 1.3 * oracle.size;
     let mut out: Vec<[f64; 2]> = (0..12).map(|_| [r.between(-reach, reach), r.between(-reach, reach)]).collect();
-    let line = ([r.between(-reach, reach), r.between(-reach, reach)], [r.between(-reach, reach), r.between(-reach, reach)]);
+    let line =
+        ([r.between(-reach, reach), r.between(-reach, reach)], [r.between(-reach, reach), r.between(-reach, reach)]);
     for (at, _) in oracle.crossings(line.0, line.1, question, 24) {
         let length = (line.1[0] - line.0[0]).hypot(line.1[1] - line.0[1]);
         let along = [(line.1[0] - line.0[0]) / length, (line.1[1] - line.0[1]) / length];
@@ -88,13 +103,25 @@ fn points_are_inside_where_brute_force_finds_a_way() {
                     && !oracle.is_boundary(at, question, NEAR)
                 {
                     let slack = oracle.extreme(at, question, MANY_SAMPLES, f64::INFINITY);
-                    wrong.push(format!("{}: {kind:?} at {at:?}: {found}, slack {slack}\n{}", case.kind, written(&case)));
+                    wrong.push(format!(
+                        "{}: {kind:?} at {at:?}: {found}, slack {slack}\n{}",
+                        case.kind,
+                        written(&case)
+                    ));
                 }
             }
         }
     }
-    assert!(wrong.is_empty(), "{} of {asked} points wrong; the first:\n{}", wrong.len(), wrong[..wrong.len().min(3)].join("\n\n"));
-    assert!(inside > 100 && asked > 5000 && refused * 10 < asked, "{inside} of {asked} inside, {refused} cases refused: not much of a test");
+    assert!(
+        wrong.is_empty(),
+        "{} of {asked} points wrong; the first:\n{}",
+        wrong.len(),
+        wrong[..wrong.len().min(3)].join("\n\n")
+    );
+    assert!(
+        inside > 100 && asked > 5000 && refused * 10 < asked,
+        "{inside} of {asked} inside, {refused} cases refused: not much of a test"
+    );
 }
 
 #[test]
@@ -116,7 +143,12 @@ fn sets_of_orientations_are_those_that_brute_force_finds() {
                 }
                 asked += 1;
                 if set.contains(phi) != (slack > 0.0) {
-                    wrong.push(format!("{} at {at:?}, phi {phi}: slack {slack}, set {:?}\n{}", case.kind, set.intervals(), written(&case)));
+                    wrong.push(format!(
+                        "{} at {at:?}, phi {phi}: slack {slack}, set {:?}\n{}",
+                        case.kind,
+                        set.intervals(),
+                        written(&case)
+                    ));
                 }
             }
             // The ends of the intervals are places where a limit is met.
@@ -124,15 +156,27 @@ fn sets_of_orientations_are_those_that_brute_force_finds() {
                 if to - from < std::f64::consts::TAU {
                     for end in [from, to] {
                         let slack = oracle.slack(at, end);
-                        if slack.abs() > 1e-7 * oracle.size && !case.kind.contains("Ranges") && !case.kind.contains("Bent") {
-                            wrong.push(format!("{} at {at:?}: an interval ends at {end} with slack {slack}\n{}", case.kind, written(&case)));
+                        if slack.abs() > 1e-7 * oracle.size
+                            && !case.kind.contains("Ranges")
+                            && !case.kind.contains("Bent")
+                        {
+                            wrong.push(format!(
+                                "{} at {at:?}: an interval ends at {end} with slack {slack}\n{}",
+                                case.kind,
+                                written(&case)
+                            ));
                         }
                     }
                 }
             }
         }
     }
-    assert!(wrong.is_empty(), "{} of {asked} wrong; the first:\n{}", wrong.len(), wrong[..wrong.len().min(3)].join("\n\n"));
+    assert!(
+        wrong.is_empty(),
+        "{} of {asked} wrong; the first:\n{}",
+        wrong.len(),
+        wrong[..wrong.len().min(3)].join("\n\n")
+    );
 }
 
 /// Margins are compared where every limit is a distance of pivots: there the check's slack is the distance of C from the nearest bound.
@@ -149,7 +193,12 @@ fn margins_are_the_extreme_slacks() {
                 let at = [r.between(-oracle.size, oracle.size), r.between(-oracle.size, oracle.size)];
                 let expected = oracle.extreme(at, question, 4 * SAMPLES, f64::INFINITY);
                 let found = margin(&reach, &kind_of(question, index), at);
-                assert!((found - expected).abs() < 1e-6 * oracle.size, "{}: {question:?} at {at:?}: margin {found}, slack {expected}\n{}", case.kind, written(&case));
+                assert!(
+                    (found - expected).abs() < 1e-6 * oracle.size,
+                    "{}: {question:?} at {at:?}: margin {found}, slack {expected}\n{}",
+                    case.kind,
+                    written(&case)
+                );
                 asked += 1;
             }
         }

@@ -210,18 +210,14 @@ pub(crate) enum Command {
         asked: Asked,
     },
     /// Finds where the reference point can be: exactly, as loops of arcs, segments and coupler curves.
-    #[command(
-        after_help = "Legs RPR, RRR and PRR, in any mixture; every joint's range counts.\n\
+    #[command(after_help = "Legs RPR, RRR and PRR, in any mixture; every joint's range counts.\n\
         Examples:  assur workspace examples/workspaces/table1-1a.toml maximal --svg reach.svg --dxf reach.dxf\n           \
         assur workspace examples/workspaces/table1-2c.toml inclusive --from=0 --to=90 --overlay dextrous --overlay constant:30 --png reach.png\n           \
-        assur workspace examples/workspaces/table1-4a.toml maximal --optimise leg1.platform.at.x=-3:3"
-    )]
+        assur workspace examples/workspaces/table1-4a.toml maximal --optimise leg1.platform.at.x=-3:3")]
     Workspace(WorkspaceArgs),
     /// Measures workspaces over a grid of designs.
-    #[command(
-        after_help = "Designs that cannot be asked are rows with a reason.\n\
-        Example:  assur sweep examples/workspaces/table1-1a.toml --vary leg1.platform.at.x=20:30:100 --report area:maximal,area:constant:240 --output areas.csv"
-    )]
+    #[command(after_help = "Designs that cannot be asked are rows with a reason.\n\
+        Example:  assur sweep examples/workspaces/table1-1a.toml --vary leg1.platform.at.x=20:30:100 --report area:maximal,area:constant:240 --output areas.csv")]
     Sweep(SweepArgs),
     /// Holds a report's poses, ours or another program's, against what can be proved.
     #[command(

@@ -107,9 +107,13 @@ pub(crate) struct SweepArgs {
 /// The kind that a name and its angles stand for.
 fn kind_of(asked: &WorkspaceArgs, unit: AngleUnit, file: &Path) -> Result<WorkspaceKind, Failure> {
     let finite = |what: &str, value: f64| {
-        if value.is_finite() { Ok(unit.to_rad(value)) } else { Err(about(file, format!("{what}: {value} must be finite"))) }
+        if value.is_finite() {
+            Ok(unit.to_rad(value))
+        } else {
+            Err(about(file, format!("{what}: {value} must be finite")))
+        }
     };
-    let needs = |what: &str| about(file, format!("{what}"));
+    let needs = |what: &str| about(file, what);
     let range = || match (asked.from, asked.to) {
         (Some(from), Some(to)) => Ok(PhiRange::between(finite("from", from)?, finite("to", to)?)),
         _ => Err(needs("this kind needs --from and --to")),
@@ -188,7 +192,8 @@ pub(crate) fn workspace(asked: &WorkspaceArgs) -> Result<(), Failure> {
     let keys: Vec<DesignKey> =
         asked.gradient.iter().map(|text| text.parse()).collect::<Result<_, _>>().map_err(|error| about(file, error))?;
     let slopes = slopes(robot, &workspace, &modes, &keys).map_err(|error| about(file, error))?;
-    let found = if asked.optimise.is_empty() { None } else { Some(optimise(&model, file, &kind, &modes, &asked.optimise)?) };
+    let found =
+        if asked.optimise.is_empty() { None } else { Some(optimise(&model, file, &kind, &modes, &asked.optimise)?) };
     if asked.shown.json {
         let mut report = WorkspaceReport::new(&workspace, &modes, None, &members);
         report.overlays = overlays.iter().map(|(_, other)| WorkspaceReport::new(other, &modes, None, &[])).collect();
@@ -222,7 +227,13 @@ pub(crate) fn workspace(asked: &WorkspaceArgs) -> Result<(), Failure> {
         for ([x, y], member) in &members {
             let binding = member.binding.map_or("-".to_owned(), |limit| limit.to_string());
             let inside = if member.inside { "yes" } else { "no" };
-            rows.add_row([digits(*x, AREA_DIGITS), digits(*y, AREA_DIGITS), inside.to_owned(), digits(member.margin, SIDE_DIGITS), binding]);
+            rows.add_row([
+                digits(*x, AREA_DIGITS),
+                digits(*y, AREA_DIGITS),
+                inside.to_owned(),
+                digits(member.margin, SIDE_DIGITS),
+                binding,
+            ]);
         }
         line(&mut text, format_args!("{rows}"));
     }
@@ -248,7 +259,10 @@ pub(crate) fn workspace(asked: &WorkspaceArgs) -> Result<(), Failure> {
     }
     if let Some((choices, best)) = &found {
         line(&mut text, format_args!("\n{STRONG}largest area found{STRONG:#}  {}", digits(best.area, AREA_DIGITS)));
-        line(&mut text, format_args!("before  {}; {} designs measured", digits(best.area_before, AREA_DIGITS), best.evaluations));
+        line(
+            &mut text,
+            format_args!("before  {}; {} designs measured", digits(best.area_before, AREA_DIGITS), best.evaluations),
+        );
         let mut rows = table(&["number", "value", "d area / d number"]);
         for (((key, _), value), slope) in choices.iter().zip(&best.values).zip(&best.gradient) {
             let shown = if key.is_angle(robot) { unit.from_rad(*value) } else { *value };
@@ -266,9 +280,7 @@ fn slopes(
     modes: &WorkspaceModes,
     keys: &[DesignKey],
 ) -> Result<Vec<f64>, Box<dyn std::error::Error>> {
-    keys.iter()
-        .map(|key| Ok(robot.area_gradient(workspace, modes, &key.numbers(robot)?)?.iter().sum()))
-        .collect()
+    keys.iter().map(|key| Ok(robot.area_gradient(workspace, modes, &key.numbers(robot)?)?.iter().sum())).collect()
 }
 
 type Chosen = (Vec<(DesignKey, DesignChoice)>, assur::workspace::Optimum);
@@ -282,7 +294,8 @@ fn optimise(
 ) -> Result<Chosen, Failure> {
     let (robot, unit) = (&model.manipulator, model.angle_unit);
     let choice = |text: &String| -> Result<(DesignKey, DesignChoice), Failure> {
-        let bad = || about(file, format!("optimise \"{text}\": must be KEY=A:B with A < B, as in leg1.platform.at.x=-3:3"));
+        let bad =
+            || about(file, format!("optimise \"{text}\": must be KEY=A:B with A < B, as in leg1.platform.at.x=-3:3"));
         let (key, bounds) = text.split_once('=').ok_or_else(bad)?;
         let (low, high) = bounds.split_once(':').ok_or_else(bad)?;
         let number = |text: &str| text.trim().parse::<f64>().ok().filter(|value| value.is_finite()).ok_or_else(bad);
@@ -358,7 +371,12 @@ fn measures(text: &mut String, workspace: &Workspace) {
             Isolated::Point { at, .. } => line(text, format_args!("isolated point {}", place(*at))),
             Isolated::Curve(arc) => line(
                 text,
-                format_args!("isolated curve from {} to {}, length {}", place(arc.start), place(arc.end), digits(arc.length(), SIDE_DIGITS)),
+                format_args!(
+                    "isolated curve from {} to {}, length {}",
+                    place(arc.start),
+                    place(arc.end),
+                    digits(arc.length(), SIDE_DIGITS)
+                ),
             ),
         }
     }
@@ -406,4 +424,3 @@ pub(crate) fn sweep(asked: &SweepArgs) -> Result<(), Failure> {
     }
     Ok(())
 }
-
