@@ -76,9 +76,10 @@ pub fn document() -> String {
         "Limit::value vanishes with the joint at its end: to 1e-13, over 1000 ends",
         on_surface < 1e-13 && checked > 1000,
     );
-    page.holds(
+    page.equal(
         "Limit::sense: with the joint a little inside its range, sense * value <= 0, in every case",
-        wrong_side == 0,
+        &wrong_side,
+        &0,
     );
 
     page.step(

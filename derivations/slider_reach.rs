@@ -79,7 +79,7 @@ pub fn document() -> String {
     );
     let sides =
         whole.loops.iter().flat_map(|l| &l.arcs).filter(|arc| arc.active[0].to_string() == "leg 1 side").count();
-    page.holds("two arcs of the region are named \"leg 1 side\"", sides == 2);
+    page.equal("two arcs of the region are named \"leg 1 side\"", &sides, &2);
 
     page.step(
         "Dextrous: offsets, and arcs about the tips",

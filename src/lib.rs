@@ -108,12 +108,12 @@ pub use linkage::{
     TrussJoint, TwoLinkAssemblies, TwoLinkAssembly, TwoLinkError, TwoLinkGroup, TwoLinkSpecial, triad_degree,
 };
 pub use manipulator::{
-    AssemblyModes, DescriptionError, DesignCoordinate, DesignError, DesignKey, DesignNumber, DesignPart, FamilyError,
-    FollowedPath, InverseSpecial, JointKind, JointsError, JointsReason, KinematicsError, Leg, LegLocus, LockError,
-    LockedGroup, LocusError, Manipulator, ManipulatorMode, MapQuantity, ModeChoice, ModesBatch, ModesPlaces, PathError,
-    PathEvent, PathEventKind, PathRow, PathSettings, Placement, PlaneCurve, PlaneMap, PlaneWindow, Reading, Remark,
-    SingularMatrix, Singularity, SingularityKind, SingularityLocus, Unreachable, Velocity, Violation, WorkingMode,
-    WorkingModes,
+    ActuatorPlane, AssemblyModes, Carried, DescriptionError, DesignCoordinate, DesignError, DesignKey, DesignNumber,
+    DesignPart, FamilyError, FollowedPath, Guided, InverseSpecial, JointKind, JointsError, JointsReason,
+    KinematicsError, Leg, LegLocus, LockError, LockedGroup, LocusError, Manipulator, ManipulatorMode, MapQuantity,
+    ModeChoice, ModeEnd, ModesBatch, ModesPlaces, PathError, PathEvent, PathEventKind, PathRow, PathSettings,
+    Placement, PlaneCurve, PlaneMap, PlaneWindow, Reading, Remark, SingularMatrix, Singularity, SingularityKind,
+    SingularityLocus, Tracked, Unreachable, Velocity, Violation, WorkingMode, WorkingModes,
 };
 pub use solve::{
     Account, Eliminant, EliminateError, Outcome, Plan, RejectedRoot, RootRejection, Solution, Solutions, SolveError,
@@ -122,14 +122,21 @@ pub use solve::{
 
 pub use spatial::{
     ArcCircle, ArcRegion, Capability, CapabilityMap, CapabilityStop, CapabilitySupremum, CartesianRobot,
-    CartesianSingular, Hana, HanaAssemblies, HanaAssembly, HanaFamily, HanaMode, HanaPose, HanaSingularKind,
-    HanaSingularity, HanaUnreachable, HanaVelocity, HanaViolation, HanaWay, HanaWays, HanaWorkspaceError, Hexapteron,
-    MixedReach, MixedSingularity, Orientations, PlaneConditions, Quadrupteron, SpatialError, Tilt, TiltLimit, Tripod,
-    TripodAssemblies, TripodAssembly, TripodError, TripodLeg, TripodPose, TripodReach, TripodSingularity, TripodStatus,
-    TripodVelocity, Tripteron, WorkspaceArc,
+    CartesianSingular, Counted, DeterminantPoint, Hana, HanaAssemblies, HanaAssembly, HanaCapabilityError, HanaFamily,
+    HanaMode, HanaPose, HanaSingularKind, HanaSingularity, HanaUnreachable, HanaVelocity, HanaViolation, HanaWay,
+    HanaWays, Hexapteron, LinkCurve, MixedReach, MixedSingularity, Orientations, PlaneConditions, Quadrupteron,
+    SpatialError, SpatialRemark, Tilt, TiltLimit, Tripod, TripodAssemblies, TripodAssembly, TripodDesign, TripodError,
+    TripodLeg, TripodPose, TripodReach, TripodSingularity, TripodStatus, TripodVelocity, Tripteron, WorkspaceArc,
+    WorkspaceCurve,
 };
 
 /// The README's code runs as a test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;
+
+/// The guide's code runs as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/src/first-answers.md")]
+#[doc = include_str!("../docs/src/motion.md")]
+struct Guide;

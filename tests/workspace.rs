@@ -98,7 +98,10 @@ fn points_of_every_case_are_told_in_from_out() {
             let found = reach.orientations(Vector2::new(number(&place["x"]), number(&place["y"])));
             assert_eq!(found.intervals().len(), expected.len(), "{name} {place} {found:?}");
             for [from, to] in expected {
-                let hit = |i: &&[f64; 2]| (near(i[0], from) && near(i[1], to)) || (found.is_full() && to - from > 6.28);
+                let hit = |i: &&[f64; 2]| {
+                    (near(i[0], from) && near(i[1], to))
+                        || (found.is_full() && to - from > std::f64::consts::TAU - 1e-2)
+                };
                 assert!(found.intervals().iter().any(|i| hit(&i)), "{name} {place} {found:?}");
             }
         }

@@ -237,7 +237,7 @@ impl TripodModel {
         cells: usize,
     ) -> PyResult<Answer> {
         Ok(py.detach(|| {
-            let found = TiltSections::of(&self.file.robot, low, high, [sections, cells], |_| ()).map_err(asked)?;
+            let found = TiltSections::of(&self.file.robot, low, high, [sections, cells], || ()).map_err(asked)?;
             let (json, file) = (found.to_json(), self.file.clone());
             Ok::<_, Refused>(Answer::drawn(json, move || {
                 assur::plot::draw_tilt_sections(&file.robot.name, low, high, cells, &found.maps)

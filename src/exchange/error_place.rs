@@ -6,9 +6,10 @@ use serde::Serialize;
 
 use super::error::{FieldProblem, FileError};
 use super::questions::LociError;
-use crate::linkage::{CouplerError, LinkageError, PinnedDyadError, TriadError, TrussError};
-use crate::manipulator::{DescriptionError, KinematicsError, LockError, LocusError, PathError};
-use crate::spatial::{HanaWorkspaceError, SpatialError, TripodError};
+use crate::linkage::{CouplerError, GroupError, LinkageError, PinnedDyadError, TriadError, TrussError};
+use crate::manipulator::{DescriptionError, DesignError, KinematicsError, LockError, LocusError, PathError};
+use crate::spatial::{HanaCapabilityError, SpatialError, TripodError};
+use crate::workspace::WorkspaceError;
 
 /// Where an error lies: file, row, leg, joint, field, and the value found there. Counted from 1.
 ///
@@ -195,6 +196,18 @@ impl From<&KinematicsError> for ErrorPlace {
     }
 }
 
+impl From<&DesignError> for ErrorPlace {
+    fn from(error: &DesignError) -> Self {
+        match error {
+            DesignError::Name { text } => Self::field(text),
+            DesignError::NoLeg { key, leg, .. } | DesignError::WhichJoint { key, leg, .. } => {
+                Self::leg(*leg).and_field(key)
+            }
+            DesignError::NoLimit { leg, joint } => Self::leg(*leg).and_joint(*joint).and_field("limits"),
+        }
+    }
+}
+
 impl From<&PathError> for ErrorPlace {
     fn from(error: &PathError) -> Self {
         match error {
@@ -257,15 +270,35 @@ impl From<&TripodError> for ErrorPlace {
     }
 }
 
-impl From<&HanaWorkspaceError> for ErrorPlace {
-    fn from(error: &HanaWorkspaceError) -> Self {
-        use HanaWorkspaceError as E;
+impl From<&HanaCapabilityError> for ErrorPlace {
+    fn from(error: &HanaCapabilityError) -> Self {
+        use HanaCapabilityError as E;
         match error {
             E::Question(error) => error.into(),
             E::OppositeSides { mode } => Self::field("mode").and_value(FoundValue::Text(mode.to_string())),
             E::DifferentStrokes => Self::field("strokes"),
-            E::LargePlatform { r, .. } => Self::field("r").and_value(FoundValue::Number(*r)),
-            E::NoArc { beyond } => Self::field("y").and_value(FoundValue::Number(*beyond)),
+        }
+    }
+}
+
+impl From<&WorkspaceError> for ErrorPlace {
+    fn from(error: &WorkspaceError) -> Self {
+        use WorkspaceError as E;
+        match error {
+            E::Description(error) => error.into(),
+            E::LegNotCovered { leg, joints } => {
+                Self::leg(*leg).and_field("joints").and_value(FoundValue::Text(joints.clone()))
+            }
+            E::NoLength { leg, link } => {
+                Self::leg(*leg).and_field(format!("links[{link}]")).and_value(FoundValue::Number(0.0))
+            }
+            E::Modes { text } => Self::field("mode").and_value(FoundValue::Text(text.clone())),
+            E::ModeCount { modes, .. } => Self::field("mode").and_value(FoundValue::Text(modes.clone())),
+            E::NotFinite { what, value } => Self::field(*what).and_value(FoundValue::Number(*value)),
+            E::NegativeWidth { value } => Self::field("phi").and_value(FoundValue::Number(*value)),
+            E::Unbounded { leg, joint } => Self::leg(*leg).and_joint(*joint).and_field("limits"),
+            E::ModesCross { leg, .. } => Self::leg(*leg).and_field("mode"),
+            E::PoseNotAllowed { leg } => Self::leg(*leg).and_field("assembly"),
         }
     }
 }
@@ -283,16 +316,30 @@ impl From<&TrussError> for ErrorPlace {
     }
 }
 
+impl From<&GroupError> for ErrorPlace {
+    fn from(error: &GroupError) -> Self {
+        match error {
+            GroupError::Truss(error) => error.into(),
+            GroupError::Triad(error) => error.into(),
+            GroupError::Dyad(error) => error.into(),
+        }
+    }
+}
+
 impl From<&LinkageError> for ErrorPlace {
     fn from(error: &LinkageError) -> Self {
         use LinkageError as E;
         match error {
             E::NoSuchLink { what, link, .. } => Self::field(what).and_value(FoundValue::Count(*link)),
-            E::SelfJoint { joint, .. } | E::DrivenLoop { joint } => Self::field("joints").and_joint(*joint),
+            E::SelfJoint { joint, .. } | E::DrivenLoop { joint } | E::NoDirection { joint } => {
+                Self::field("joints").and_joint(*joint)
+            }
+            E::Coincident { first, .. } => Self::field("joints").and_joint(*first),
             E::NotFinite { what, value } => Self::field(what).and_value(FoundValue::Number(*value)),
             E::InputCount { found, .. } => Self::field("inputs").and_value(FoundValue::Count(*found)),
             E::Group { error, .. } => error.into(),
-            E::TooLarge { .. } | E::Overdetermined { .. } | E::Movable { .. } | E::TooMany => Self::field("joints"),
+            // About links or the whole: what is wrong is how they are joined.
+            _ => Self::field("joints"),
         }
     }
 }

@@ -36,6 +36,7 @@ mod path_file;
 mod questions;
 mod reader;
 mod report;
+mod spatial_check;
 mod spatial_file;
 mod spatial_report;
 #[cfg(feature = "batch")]
@@ -64,11 +65,12 @@ pub use motion_report::{InverseReport, Motion, ROW_SCALING, SINGULAR_VALUE_SCALI
 pub use path_file::{PathFileError, PathReport, parse_path, read_path};
 pub use questions::{AskedLoci, AskedTilts, HanaTilts, Loci, LociError, MotionAnswer, TiltSections};
 pub use report::{CertificateReport, ForwardReport, ModeReport, SubjectReport};
+pub use spatial_check::{AnyCheck, SpatialCheckReport};
 pub use spatial_file::{HanaFile, TripodFile};
 pub use spatial_report::{
     capability_stop_name, hana_capability_json, hana_forward_json, hana_inverse_json, hana_velocity_json,
-    hana_workspace_json, tilt_json, tilt_limit_name, tilt_map_json, tripod_forward_json, tripod_inverse_json,
-    tripod_velocity_json,
+    hana_workspace_json, tilt_json, tilt_limit_name, tilt_map_json, tripod_determinant_csv, tripod_determinant_json,
+    tripod_forward_json, tripod_inverse_json, tripod_velocity_json,
 };
 #[cfg(feature = "batch")]
 pub use sweep::{Measure, Sweep, SweepError, SweepTable, Variation};

@@ -9,8 +9,8 @@ use crate::manipulator::{
     SingularityLocus, Velocity,
 };
 use crate::spatial::{
-    ArcRegion, Capability, CapabilityMap, CapabilitySupremum, Hana, HanaMode, HanaWorkspaceError, SpatialError, Tripod,
-    TripodError,
+    ArcRegion, Capability, CapabilityMap, CapabilitySupremum, Hana, HanaCapabilityError, HanaMode, SpatialError,
+    Tripod, TripodError,
 };
 use nalgebra::{Vector2, Vector3};
 use thiserror::Error;
@@ -176,8 +176,8 @@ impl HanaTilts {
         mode: HanaMode,
         asked: &AskedTilts,
         progress: impl FnMut(usize),
-    ) -> Result<Self, HanaWorkspaceError> {
-        let here = asked.at.map(|at| Ok::<_, HanaWorkspaceError>((at, robot.capability(at, mode)?))).transpose()?;
+    ) -> Result<Self, HanaCapabilityError> {
+        let here = asked.at.map(|at| Ok::<_, HanaCapabilityError>((at, robot.capability(at, mode)?))).transpose()?;
         let supremum = robot.capability_supremum(mode)?;
         let mut against_strokes = Vec::new();
         for &half in &asked.strokes {
@@ -213,7 +213,7 @@ pub struct TiltSections {
 }
 
 impl TiltSections {
-    /// Sections evenly over the height of the box; `progress` hears of each row done, of `sections` times `cells`.
+    /// Sections evenly over the height of the box; `progress` is called after each row, `sections` times `cells` of them, from any thread.
     ///
     /// # Errors
     /// Corners that are not finite or the wrong way round.
@@ -222,7 +222,7 @@ impl TiltSections {
         low: [f64; 3],
         high: [f64; 3],
         [sections, cells]: [usize; 2],
-        mut progress: impl FnMut(usize),
+        progress: impl Fn() + Sync,
     ) -> Result<Self, TripodError> {
         for (what, corner) in [("low", low), ("high", high)] {
             if let Some(&value) = corner.iter().find(|value| !value.is_finite()) {
@@ -239,8 +239,7 @@ impl TiltSections {
         let section = |section: usize| {
             let z = low[2] + (high[2] - low[2]) * section as f64 / sections.saturating_sub(1).max(1) as f64;
             let corner = Vector3::new(low[0] + 0.5 * side(0), low[1] + 0.5 * side(1), z);
-            let done = |row: usize| progress(section * cells + row);
-            Ok((z, robot.tilt_map(&corner, along, [cells; 2], done)?))
+            Ok((z, robot.tilt_map(&corner, along, [cells; 2], &progress)?))
         };
         let maps = (0..sections).map(section).collect::<Result<_, TripodError>>()?;
         Ok(Self { low, high, cells, maps })

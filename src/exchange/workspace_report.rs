@@ -134,7 +134,7 @@ struct PairReport {
 #[serde(untagged)]
 enum IsolatedReport {
     Point { curve: &'static str, at: [f64; 2], active: Vec<String> },
-    Curve(ArcReport),
+    Curve(Box<ArcReport>),
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -232,7 +232,7 @@ impl From<&Region> for RegionReport {
                 at: *at,
                 active: active.iter().map(ToString::to_string).collect(),
             },
-            Isolated::Curve(arc) => IsolatedReport::Curve(arc.into()),
+            Isolated::Curve(arc) => IsolatedReport::Curve(Box::new(arc.into())),
         };
         Self {
             area: region.area,
@@ -259,8 +259,8 @@ impl From<&BoundaryArc> for ArcReport {
             &ArcCurve::Circle { center, radius, start_angle, end_angle } => {
                 CurveReport::Circle { center, radius, start_angle, end_angle }
             }
-            ArcCurve::Coupler(coupler) => CurveReport::Coupler(coupler.as_ref().into()),
-            ArcCurve::Ellipse(coupler) => CurveReport::Ellipse(coupler.as_ref().into()),
+            ArcCurve::Coupler(coupler) => CurveReport::Coupler((&**coupler).into()),
+            ArcCurve::Ellipse(coupler) => CurveReport::Ellipse((&**coupler).into()),
         };
         Self { curve, start: arc.start, end: arc.end, active: arc.active.iter().map(ToString::to_string).collect() }
     }

@@ -3,6 +3,7 @@
 mod args;
 mod batch;
 mod derive;
+mod explore;
 mod kinematics;
 mod linkages;
 mod output;
@@ -16,9 +17,7 @@ use std::process::ExitCode;
 
 use args::{Arguments, Asked, Command};
 use assur::Manipulator;
-use assur::exchange::{
-    AngleUnit, CheckReport, ClaimedPoses, ForwardReport, ModelFile, Subject, VerifyReport, read_triad,
-};
+use assur::exchange::{AngleUnit, AnyCheck, ClaimedPoses, ForwardReport, ModelFile, Subject, VerifyReport, read_triad};
 use clap::{CommandFactory, Parser};
 use output::{Failure, Files};
 
@@ -33,7 +32,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     match arguments.command {
         Command::New { family, output } => new(&family, output.as_deref()),
         Command::Check { model, json } => {
-            let report = CheckReport::of(&ModelFile::read(&model)?);
+            let report = AnyCheck::read(&model)?;
             output::print(&if json { report.to_json() } else { tables::check(&report) })
         }
         Command::Forward { model, inputs, batch: None, asked, .. } => forward(&model, &inputs, &asked),
@@ -52,6 +51,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::Path { model, through, from, output, shown } => {
             kinematics::path(&model, &through, &from, output.as_deref(), &shown)
         }
+        Command::Explore { model, inputs, port, no_open } => explore::run(model.as_deref(), &inputs, port, !no_open),
         Command::Coupler { file, complex, shown } => linkages::coupler(&file, complex, &shown),
         Command::Group { file, inputs, complex, shown } => linkages::group(&file, &inputs, complex, &shown),
         Command::Triad { file, asked } => triad(&file, &asked),

@@ -16,6 +16,8 @@
 //! Not covered: the Pentapteron, whose forward kinematics has 208 real solutions and more (cited there as its reference 6).
 
 mod cartesian;
+mod determinant;
+mod exact;
 mod forward;
 mod members;
 mod model;
@@ -24,7 +26,8 @@ mod tilt;
 mod velocity;
 
 pub use cartesian::{CartesianRobot, CartesianSingular};
-pub use forward::{TripodAssemblies, TripodAssembly, TripodStatus};
+pub use determinant::{DeterminantPoint, TripodDesign};
+pub use forward::{Counted, TripodAssemblies, TripodAssembly, TripodStatus};
 pub use members::{Hexapteron, Quadrupteron, Tripteron};
 pub use model::{Tripod, TripodError, TripodLeg, TripodPose, TripodReach};
 pub use orientation::{Orientations, PlaneConditions};
