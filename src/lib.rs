@@ -108,12 +108,12 @@ pub use linkage::{
     TrussJoint, TwoLinkAssemblies, TwoLinkAssembly, TwoLinkError, TwoLinkGroup, TwoLinkSpecial, triad_degree,
 };
 pub use manipulator::{
-    AssemblyModes, DescriptionError, DesignCoordinate, DesignError, DesignKey, DesignNumber, DesignPart, FamilyError,
-    FollowedPath, InverseSpecial, JointKind, JointsError, JointsReason, KinematicsError, Leg, LegLocus, LockError,
-    LockedGroup, LocusError, Manipulator, ManipulatorMode, MapQuantity, ModeChoice, ModesBatch, ModesPlaces, PathError,
-    PathEvent, PathEventKind, PathRow, PathSettings, Placement, PlaneCurve, PlaneMap, PlaneWindow, Reading, Remark,
-    SingularMatrix, Singularity, SingularityKind, SingularityLocus, Unreachable, Velocity, Violation, WorkingMode,
-    WorkingModes,
+    ActuatorPlane, AssemblyModes, Carried, DescriptionError, DesignCoordinate, DesignError, DesignKey, DesignNumber,
+    DesignPart, FamilyError, FollowedPath, Guided, InverseSpecial, JointKind, JointsError, JointsReason,
+    KinematicsError, Leg, LegLocus, LockError, LockedGroup, LocusError, Manipulator, ManipulatorMode, MapQuantity,
+    ModeChoice, ModeEnd, ModesBatch, ModesPlaces, PathError, PathEvent, PathEventKind, PathRow, PathSettings,
+    Placement, PlaneCurve, PlaneMap, PlaneWindow, Reading, Remark, SingularMatrix, Singularity, SingularityKind,
+    SingularityLocus, Tracked, Unreachable, Velocity, Violation, WorkingMode, WorkingModes,
 };
 pub use solve::{
     Account, Eliminant, EliminateError, Outcome, Plan, RejectedRoot, RootRejection, Solution, Solutions, SolveError,
@@ -134,3 +134,9 @@ pub use spatial::{
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;
+
+/// The guide's code runs as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/src/first-answers.md")]
+#[doc = include_str!("../docs/src/motion.md")]
+struct Guide;

@@ -26,7 +26,19 @@ pub fn draw_modes(robot: &Manipulator, answer: &AssemblyModes) -> String {
     sheet(&title, &format!("{family}inputs {inputs}  ·  {count}"), &scenes)
 }
 
-fn mode_scene(robot: &Manipulator, mode: &ManipulatorMode, number: usize) -> Scene {
+/// The symbols of one mode, from the back of the picture to its front; nothing is drawn for a caller that has a canvas of its own.
+///
+/// **Units and frame**: lengths of the mechanism, in the base frame.
+///
+/// ```
+/// use assur::{Manipulator, plot::{Mark, mode_marks}};
+/// let (robot, inputs) = Manipulator::of_family("3-RPR")?;
+/// let mode = &robot.forward(&inputs)?.modes[0];
+/// let struts = mode_marks(&robot, mode).iter().filter(|mark| matches!(mark, Mark::Telescope { .. })).count();
+/// assert_eq!(struts, 3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn mode_marks(robot: &Manipulator, mode: &ManipulatorMode) -> Vec<Mark> {
     let pose = mode.mode.pose;
     let corners = robot.legs.iter().map(|leg| pose.place(leg.platform.at)).collect();
     let mut marks = vec![Mark::Body { corners }, Mark::Frame { pose: pose.isometry() }];
@@ -37,8 +49,13 @@ fn mode_scene(robot: &Manipulator, mode: &ManipulatorMode, number: usize) -> Sce
         };
         draw_chain(&mut marks, leg, values, index + 1, look);
     }
+    marks.sort_by_key(Mark::layer);
+    marks
+}
+
+fn mode_scene(robot: &Manipulator, mode: &ManipulatorMode, number: usize) -> Scene {
     let caption = caption(&mode.mode, &mode.signs, !mode.violations.is_empty());
-    Scene { marks, number: Some(number), caption, pose: Some(pose) }
+    Scene { marks: mode_marks(robot, mode), number: Some(number), caption, pose: Some(mode.mode.pose) }
 }
 
 fn draw_chain(marks: &mut Vec<Mark>, leg: &Leg, values: &[f64; 3], number: usize, look: impl Fn(usize) -> Look) {

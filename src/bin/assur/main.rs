@@ -3,6 +3,7 @@
 mod args;
 mod batch;
 mod derive;
+mod explore;
 mod kinematics;
 mod linkages;
 mod output;
@@ -50,6 +51,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::Path { model, through, from, output, shown } => {
             kinematics::path(&model, &through, &from, output.as_deref(), &shown)
         }
+        Command::Explore { model, inputs, port, no_open } => explore::run(model.as_deref(), &inputs, port, !no_open),
         Command::Coupler { file, complex, shown } => linkages::coupler(&file, complex, &shown),
         Command::Group { file, inputs, complex, shown } => linkages::group(&file, &inputs, complex, &shown),
         Command::Triad { file, asked } => triad(&file, &asked),

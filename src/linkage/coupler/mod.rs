@@ -11,6 +11,7 @@ mod cross;
 mod curve;
 mod equation;
 mod meet;
+mod nearest;
 mod search;
 mod sextic;
 
