@@ -299,16 +299,16 @@ fn resultant_rows<R: Ring>(conics: &[[[UPoly<R>; 3]; 3]; 3]) -> Vec<Vec<UPoly<R>
         PAIRS.iter().map(|&(i, j)| if i == j { entry(i, i) } else { entry(i, j) + entry(j, i) }).collect()
     };
     let [a, b, c] = conics;
-    // det[A e_i, B e_j, C e_k]
+    // det[A e_i, B e_j, C e_k]; rows are columns.
     let mut volumes: Vec<UPoly<R>> = Vec::with_capacity(27);
-    for i in 0..3 {
-        for j in 0..3 {
+    for first in a {
+        for second in b {
             let cross: [UPoly<R>; 3] = std::array::from_fn(|m| {
                 let (n, o) = ((m + 1) % 3, (m + 2) % 3);
-                a[n][i].clone() * b[o][j].clone() - a[o][i].clone() * b[n][j].clone()
+                first[n].clone() * second[o].clone() - first[o].clone() * second[n].clone()
             });
-            for k in 0..3 {
-                volumes.push((0..3).fold(UPoly::zero(), |sum, m| sum + cross[m].clone() * c[m][k].clone()));
+            for third in c {
+                volumes.push((0..3).fold(UPoly::zero(), |sum, m| sum + cross[m].clone() * third[m].clone()));
             }
         }
     }
