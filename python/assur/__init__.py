@@ -22,6 +22,7 @@ from .paths import FollowedPath
 from .spatial import ArcRegion, Hana, HanaAssemblies, HanaTilts, HanaVelocity, HanaWays, Tilt, TiltMap, Tripod
 from .spatial import TripodAssemblies, TripodVelocity, TripodWay
 from .sweeps import Design, Sweep, sweep, vary
+from .workspaces import Region
 
 __all__ = [
     "Account",
@@ -44,6 +45,7 @@ __all__ = [
     "Mode",
     "ModelError",
     "ModesBatch",
+    "Region",
     "SingularityLoci",
     "Sweep",
     "Tilt",

@@ -19,6 +19,7 @@ from .motion import WorkingModes
 from .paths import FollowedPath
 from .spatial import ArcRegion, HanaTilts, TiltMap
 from .sweeps import Sweep
+from .workspaces import POINTS, Region
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -28,6 +29,9 @@ if TYPE_CHECKING:
 COLOURS = ("#d55e00", "#0072b2", "#009e73", "#e69f00", "#cc79a7", "#56b4e9", "#7a4a21", "#000000")
 #: Assemblies drawn over one another, at most; more cannot be told apart.
 MOST_OVERLAID = 8
+
+#: Limits named in a legend, at most; more are a wall of text.
+MOST_NAMED = 12
 
 Points = NDArray[np.float64]
 
@@ -365,6 +369,40 @@ def coupler(answer: CouplerCurve, ax: Axes | None) -> Axes:
         ax.plot(*answer.points.T, "o", color=COLOURS[0], ms=6, label="intersections")
     ax.legend(fontsize="small")
     ax.set_title(answer._summary(), fontsize="medium")
+    return ax
+
+
+def region(answer: Region, ax: Axes | None) -> Axes:
+    """A workspace: filled, its boundary coloured by the limit that is active there."""
+    from matplotlib.patches import PathPatch
+    from matplotlib.path import Path
+
+    ax = _axes(ax)
+    outlines = [line for line in answer.outlines() if len(line) > 2]
+    if outlines:
+        # One path: holes run the other way round and stay empty.
+        patch = PathPatch(Path.make_compound_path(*(Path(line, closed=True) for line in outlines)), fc=COLOURS[1], alpha=0.15, lw=0)
+        ax.add_patch(patch)
+    names = list(dict.fromkeys(", ".join(arc.active) for loop in answer.loops for arc in loop.arcs))
+    labelled: set[str] = set()
+    for loop, line in zip(answer.loops, answer.outlines(), strict=True):
+        begin = 0
+        for arc in loop.arcs:
+            count = (2 if arc.curve == "line" else POINTS) - 1
+            piece = line[begin : begin + count + 1]
+            begin += count
+            name = ", ".join(arc.active)
+            ax.plot(*piece.T, color=_colour(names.index(name)), lw=1.6, label=None if name in labelled else name)
+            labelled.add(name)
+    for flat in answer._shape.separating(POINTS):
+        ax.plot(*np.asarray(flat).reshape(-1, 2).T, color="#8a949e", lw=0.8, ls="--")
+    for part in answer.isolated:
+        if part.at is not None:
+            ax.plot(*part.at, ".", color=COLOURS[0])
+    if 0 < len(names) <= MOST_NAMED:
+        ax.legend(fontsize="x-small")
+    ax.set_title(f"{answer.kind}: {answer._summary()}", fontsize="medium")
+    ax.autoscale_view()
     return ax
 
 

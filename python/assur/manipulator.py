@@ -21,6 +21,7 @@ from .loci import SingularityLoci
 from .modes import AssemblyModes, ModesBatch
 from .motion import Velocity, WorkingModes
 from .paths import FollowedPath
+from .workspaces import Region
 
 __all__ = ["Manipulator"]
 
@@ -100,6 +101,24 @@ class Manipulator:
     def to_toml(self) -> str:
         """The model as a commented TOML model file."""
         return self._model.to_toml()
+
+    def with_numbers(self, numbers: Mapping[str, float]) -> Manipulator:
+        """This manipulator with some numbers of the design changed.
+
+        Parameters
+        ----------
+        numbers : mapping from key to float
+            Keys as on the command line: ``"leg1.platform.at.x"``, ``"leg2.base.angle"``, ``"leg1.links2"`` (a length),
+            ``"leg3.limits.max"``, ``"legs.links1"`` of every leg, ``"reference.x"``. Angles in radians.
+
+        Raises
+        ------
+        InputError
+            A key that names no number of the design.
+        ModelError
+            Numbers that make no manipulator.
+        """
+        return Manipulator(self._model.with_numbers([(key, number(key, value)) for key, value in numbers.items()]))
 
     @property
     def name(self) -> str:
@@ -300,6 +319,40 @@ class Manipulator:
         answer = self._model.follow(rows("path", path, 3), optional_vector("start", start, 3))
         return result(FollowedPath, answer, self)
 
+    def workspace(
+        self,
+        kind: str = "maximal",
+        *,
+        phi: float | None = None,
+        lower: float | None = None,
+        upper: float | None = None,
+        mode: str = "both",
+    ) -> Region:
+        """Where the reference point can reach, exactly; of legs RPR, RRR and PRR in any mixture.
+
+        Parameters
+        ----------
+        kind : {"constant", "maximal", "inclusive", "total", "dextrous"}
+            Reached with the orientation ``phi``; with some orientation; with some between ``lower`` and ``upper``; with every one between
+            them; with every orientation.
+        phi, lower, upper : float
+            Radians; a range runs counter-clockwise, equal ends are that single orientation, a full turn or more is every one.
+        mode : str
+            ``"both"``, or a sign for each leg.
+
+        Raises
+        ------
+        InputError
+            A leg that is not covered or not bounded, angles that the kind does not take or lacks.
+        """
+        angles = _angles_of(kind, phi, lower, upper)
+        question = (kind, angles, mode)
+        answer, shape = self._model.workspace(*question)
+        found = result(Region, answer, (self, question))
+        # The cache of the property: what is there need not be made again.
+        found.__dict__["_shape"] = shape
+        return found
+
     def verify(
         self, claims: Report | Mapping[str, Any] | str | os.PathLike[str], tolerance: float = TOLERANCE
     ) -> Verification:
@@ -333,6 +386,22 @@ class Manipulator:
         """
         values = rows("joints", joints, 3)
         return self._model.frames(values.tolist()).reshape(len(values), 3, 2, 3)
+
+
+#: The angles that each kind of workspace takes.
+_TAKES = {"constant": ("phi",), "maximal": (), "inclusive": ("lower", "upper"), "total": ("lower", "upper"), "dextrous": ()}
+
+
+def _angles_of(kind: str, phi: float | None, lower: float | None, upper: float | None) -> list[float]:
+    if kind not in _TAKES:
+        raise InputError(f"kind: {kind!r} must be one of {', '.join(_TAKES)}", field="kind", value=kind)
+    given = {"phi": phi, "lower": lower, "upper": upper}
+    for name, value in given.items():
+        if value is None and name in _TAKES[kind]:
+            raise InputError(f"{name}: the kind {kind} needs it", field=name)
+        if value is not None and name not in _TAKES[kind]:
+            raise InputError(f"{name}: the kind {kind} takes none", field=name, value=value)
+    return [0.0 if value is None else number(name, value) for name, value in given.items()]
 
 
 def _from_json(text: str) -> Manipulator:

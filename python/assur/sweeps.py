@@ -10,7 +10,6 @@ import hashlib
 import itertools
 import json
 import os
-import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -49,7 +48,7 @@ class Design:
 class _Grid(Sequence[Design]):
     """All combinations of values, made one by one."""
 
-    def __init__(self, base: dict[str, Any], axes: dict[str, NDArray[np.float64]]) -> None:
+    def __init__(self, base: Manipulator, axes: dict[str, NDArray[np.float64]]) -> None:
         self._base, self._axes = base, axes
         self._shape = tuple(len(values) for values in axes.values())
 
@@ -63,22 +62,18 @@ class _Grid(Sequence[Design]):
             raise IndexError(place)
         at = np.unravel_index(place % len(self), self._shape)
         values = {key: float(axis[k]) for (key, axis), k in zip(self._axes.items(), at, strict=True)}
-        model = json.loads(json.dumps(self._base))
-        for key, value in values.items():
-            _set(model, key, value)
-        return Design(values, Manipulator.from_dict(model))
+        return Design(values, self._base.with_numbers(values))
 
 
 def vary(manipulator: Manipulator, parameters: Mapping[str, ArrayLike]) -> Sequence[Design]:
-    """All combinations of values of some fields of a model.
+    """All combinations of values of some numbers of a design.
 
     Parameters
     ----------
     manipulator : Manipulator
         The design to start from.
     parameters : mapping from key to array_like, shape (n,)
-        Keys as on the command line: ``"leg1.platform.at.x"``, ``"leg2.base.angle"``, ``"leg1.links.2"``, ``"leg3.limits.max"``,
-        ``"reference.x"``; legs, links and joints from 1. Angles in the unit of the model's file.
+        Keys as in :meth:`Manipulator.with_numbers`; angles in radians.
 
     Returns
     -------
@@ -88,57 +83,14 @@ def vary(manipulator: Manipulator, parameters: Mapping[str, ArrayLike]) -> Seque
     Raises
     ------
     InputError
-        A key that names no number of the model.
+        A key that names no number of the design.
     """
-    base = manipulator.to_dict()
     axes = {key: np.atleast_1d(np.asarray(values, dtype=np.float64)) for key, values in parameters.items()}
     for key, values in axes.items():
         if values.ndim != 1 or not values.size:
             raise InputError(f"{key}: shape {values.shape} must be (n,), not empty", field=key, value=values.shape)
-        _set(json.loads(json.dumps(base)), key, float(values[0]))
-    return _Grid(base, axes)
-
-
-#: Parts of a key that stand for a place in a list.
-_PLACES = {"x": 0, "y": 1, "min": 0, "max": 1}
-
-
-def _set(model: dict[str, Any], key: str, value: float) -> None:
-    leg, *rest = key.split(".")
-    found = re.fullmatch(r"leg([1-9])", leg)
-    wrong = InputError(f"{key}: names no number of the model", field=key, value=value)
-    try:
-        node: Any = model["leg"][int(found[1]) - 1] if found else model
-        path = rest if found else [leg, *rest]
-        if path[:1] == ["limits"] and len(path) == 2:
-            # The range of the leg's only actuated joint.
-            (only,) = node["limits"]
-            path = ["limits", only, path[1]]
-        if path[-1:] == ["angle"]:
-            for part in path[:-1]:
-                node = node[_step(node, part)]
-            node.pop("direction", None)
-            node["angle"] = value
-            return
-        for part in path[:-1]:
-            node = node[_step(node, part)]
-        last = _step(node, path[-1])
-        if path[0] == "links" and len(path) == 2:  # a length along its x axis
-            node[last] = value
-        elif isinstance(node[last], (int, float)) and not isinstance(node[last], bool):
-            node[last] = value
-        else:
-            raise wrong
-    except (KeyError, IndexError, ValueError, TypeError):
-        raise wrong from None
-
-
-def _step(node: Any, part: str) -> Any:
-    if isinstance(node, list):
-        return _PLACES[part] if part in _PLACES else int(part) - 1
-    if isinstance(node, dict) and part in node:
-        return part
-    raise KeyError(part)
+        manipulator.with_numbers({key: float(values[0])})
+    return _Grid(manipulator, axes)
 
 
 # --- measures ------------------------------------------------------------------------------------------------------------------------
@@ -160,6 +112,29 @@ def _dexterity(robot: Manipulator, argument: str) -> Measured:
     return {"dexterity": found.dexterity, "singularity": found.singularity}
 
 
+def _workspace(quantity: str) -> Callable[[Manipulator, str], Measured]:
+    def measured(robot: Manipulator, argument: str) -> Measured:
+        kind, *angles = argument.split(":")
+        try:
+            numbers: list[float | None] = [float(angle) for angle in angles]
+        except ValueError:
+            raise InputError(f"report: {quantity}:{argument} must have numbers behind the kind", field="report", value=argument) from None
+        phi = numbers[0] if len(numbers) == 1 else None
+        lower, upper = numbers if len(numbers) == 2 else (None, None)
+        region = robot.workspace(kind or "maximal", phi=phi, lower=lower, upper=upper)
+        if quantity in _EDGES:
+            value = None if region.bbox is None else float(region.bbox[_EDGES.index(quantity)])
+        else:
+            value = getattr(region, quantity)
+        return {f"{quantity}:{argument}": value}
+
+    return measured
+
+
+#: Edges of a region's bounding box, in its order.
+_EDGES = ("xmin", "ymin", "xmax", "ymax")
+
+
 def _three(measure: str, text: str) -> list[float]:
     try:
         a, b, c = (float(part) for part in text.split(","))
@@ -173,6 +148,7 @@ _MEASURES: dict[str, Callable[[Manipulator, str], Measured]] = {
     "degree": _degree,
     "modes": _modes,
     "dexterity": _dexterity,
+    **{name: _workspace(name) for name in ("area", "perimeter", "components", "holes", *_EDGES)},
 }
 
 
@@ -305,8 +281,10 @@ def sweep(
     designs : iterable of Design or Manipulator
         :func:`vary` makes a grid of them.
     report : str, callable, or several
-        ``"degree"``, ``"modes:q1,q2,q3"`` (real assembly modes), ``"dexterity:x,y,phi"`` or ``"dexterity:x,y,phi@+-+"``; or functions of a
-        manipulator that answer a mapping from names to numbers or texts. Angles in radians.
+        ``"degree"``, ``"modes:q1,q2,q3"`` (real assembly modes), ``"dexterity:x,y,phi"`` or ``"dexterity:x,y,phi@+-+"``; of
+        workspaces ``area``, ``perimeter``, ``components``, ``holes``, ``xmin``, ``ymin``, ``xmax``, ``ymax`` of a kind, as on the command line:
+        ``"area:maximal"``, ``"area:constant:0.3"``, ``"holes:inclusive:0:1.5"``; or functions of a manipulator that answer a mapping from
+        names to numbers or texts. Angles in radians.
     client : dask.distributed.Client, optional
         A Dask client, with any scheduler behind it; without it all is done in this process.
     output : path, optional

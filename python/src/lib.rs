@@ -7,6 +7,7 @@ mod model;
 mod problems;
 mod refused;
 mod spatial;
+mod workspace;
 
 use pyo3::prelude::*;
 
@@ -23,6 +24,8 @@ mod _assur {
     use crate::problems::{coupler, coupler_polygons, group, triad};
     #[pymodule_export]
     use crate::spatial::{HanaModel, TripodModel};
+    #[pymodule_export]
+    use crate::workspace::Shape;
 
     use super::*;
 

@@ -8,7 +8,7 @@ use assur::exchange::{
     MotionAnswer, PathReport, VerifyReport,
 };
 use assur::nalgebra::Vector3;
-use assur::{Manipulator, MapQuantity, PathSettings, Pose};
+use assur::{DesignError, DesignKey, Manipulator, MapQuantity, PathSettings, Pose};
 use numpy::{PyArray1, PyReadonlyArray2, ToPyArray};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -16,6 +16,7 @@ use pyo3::prelude::*;
 use crate::answer::Answer;
 use crate::batch::{self, Batch};
 use crate::refused::Refused;
+use crate::workspace::{self, Shape};
 
 /// A model file: a manipulator, and the unit its file writes angles in.
 #[pyclass(frozen, module = "assur._assur")]
@@ -84,6 +85,19 @@ impl Model {
 
     fn check(&self) -> String {
         CheckReport::of(&self.file).to_json()
+    }
+
+    /// The model with some numbers of the design changed, by name; angles in radians.
+    fn with_numbers(&self, numbers: Vec<(String, f64)>) -> PyResult<Self> {
+        let mut file = ModelFile::clone(&self.file);
+        for (key, value) in numbers {
+            let key: DesignKey = key.parse().map_err(|error: DesignError| Refused::input(error))?;
+            for number in key.numbers(&file.manipulator).map_err(Refused::input)? {
+                file.manipulator.set_design_number(number, value).map_err(Refused::input)?;
+            }
+        }
+        file.manipulator.validate().map_err(Refused::model)?;
+        Ok(Self::of(file))
     }
 
     /// Every assembly mode, with proofs on request.
@@ -170,6 +184,11 @@ impl Model {
             let (json, file) = (PathReport::from(&path).to_json(), self.file.clone());
             Ok::<_, Refused>(Answer::drawn(json, move || assur::plot::draw_path(&file.manipulator, &path)))
         })?)
+    }
+
+    /// The workspace of a kind.
+    fn workspace(&self, py: Python<'_>, kind: &str, angles: [f64; 3], mode: &str) -> PyResult<(Answer, Shape)> {
+        Ok(py.detach(|| workspace::workspace(&self.file, kind, angles, mode))?)
     }
 
     /// What is proved of the poses that a report claims.

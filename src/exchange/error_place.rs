@@ -7,8 +7,9 @@ use serde::Serialize;
 use super::error::{FieldProblem, FileError};
 use super::questions::LociError;
 use crate::linkage::{CouplerError, GroupError, LinkageError, PinnedDyadError, TriadError, TrussError};
-use crate::manipulator::{DescriptionError, KinematicsError, LockError, LocusError, PathError};
+use crate::manipulator::{DescriptionError, DesignError, KinematicsError, LockError, LocusError, PathError};
 use crate::spatial::{HanaCapabilityError, SpatialError, TripodError};
+use crate::workspace::WorkspaceError;
 
 /// Where an error lies: file, row, leg, joint, field, and the value found there. Counted from 1.
 ///
@@ -195,6 +196,18 @@ impl From<&KinematicsError> for ErrorPlace {
     }
 }
 
+impl From<&DesignError> for ErrorPlace {
+    fn from(error: &DesignError) -> Self {
+        match error {
+            DesignError::Name { text } => Self::field(text),
+            DesignError::NoLeg { key, leg, .. } | DesignError::WhichJoint { key, leg, .. } => {
+                Self::leg(*leg).and_field(key)
+            }
+            DesignError::NoLimit { leg, joint } => Self::leg(*leg).and_joint(*joint).and_field("limits"),
+        }
+    }
+}
+
 impl From<&PathError> for ErrorPlace {
     fn from(error: &PathError) -> Self {
         match error {
@@ -268,6 +281,28 @@ impl From<&HanaCapabilityError> for ErrorPlace {
     }
 }
 
+impl From<&WorkspaceError> for ErrorPlace {
+    fn from(error: &WorkspaceError) -> Self {
+        use WorkspaceError as E;
+        match error {
+            E::Description(error) => error.into(),
+            E::LegNotCovered { leg, joints } => {
+                Self::leg(*leg).and_field("joints").and_value(FoundValue::Text(joints.clone()))
+            }
+            E::NoLength { leg, link } => {
+                Self::leg(*leg).and_field(format!("links[{link}]")).and_value(FoundValue::Number(0.0))
+            }
+            E::Modes { text } => Self::field("mode").and_value(FoundValue::Text(text.clone())),
+            E::ModeCount { modes, .. } => Self::field("mode").and_value(FoundValue::Text(modes.clone())),
+            E::NotFinite { what, value } => Self::field(*what).and_value(FoundValue::Number(*value)),
+            E::NegativeWidth { value } => Self::field("phi").and_value(FoundValue::Number(*value)),
+            E::Unbounded { leg, joint } => Self::leg(*leg).and_joint(*joint).and_field("limits"),
+            E::ModesCross { leg, .. } => Self::leg(*leg).and_field("mode"),
+            E::PoseNotAllowed { leg } => Self::leg(*leg).and_field("assembly"),
+        }
+    }
+}
+
 impl From<&TrussError> for ErrorPlace {
     fn from(error: &TrussError) -> Self {
         match error {
@@ -303,6 +338,7 @@ impl From<&LinkageError> for ErrorPlace {
             E::NotFinite { what, value } => Self::field(what).and_value(FoundValue::Number(*value)),
             E::InputCount { found, .. } => Self::field("inputs").and_value(FoundValue::Count(*found)),
             E::Group { error, .. } => error.into(),
+            // About links or the whole: what is wrong is how they are joined.
             _ => Self::field("joints"),
         }
     }

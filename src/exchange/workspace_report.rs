@@ -132,7 +132,7 @@ struct PairReport {
 #[serde(untagged)]
 enum IsolatedReport {
     Point { curve: &'static str, at: [f64; 2], active: Vec<String> },
-    Curve(ArcReport),
+    Curve(Box<ArcReport>),
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -229,7 +229,7 @@ impl From<&Region> for RegionReport {
                 at: *at,
                 active: active.iter().map(ToString::to_string).collect(),
             },
-            Isolated::Curve(arc) => IsolatedReport::Curve(arc.into()),
+            Isolated::Curve(arc) => IsolatedReport::Curve(Box::new(arc.into())),
         };
         Self {
             area: region.area,

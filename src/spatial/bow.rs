@@ -212,7 +212,7 @@ impl Bow {
         };
         let apart = |y: f64| self.at(y) - other.at(y);
         let mut found: Vec<f64> =
-            places.into_iter().filter_map(|y| nearest_root(&apart, y, [low, high], size)).collect();
+            places.into_iter().filter_map(|y| nearest_root(apart, y, [low, high], size)).collect();
         let sample = |k: usize| low + (high - low) * k as f64 / SAMPLES as f64;
         for k in 0..SAMPLES {
             let (mut a, mut b) = (sample(k), sample(k + 1));

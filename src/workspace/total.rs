@@ -54,24 +54,22 @@ impl LegReach {
         }
         /// Gaps of the set of orientations narrower than this (radians) come from rounding its ends.
         const SEAM: f64 = 1e-13;
-        /// Within a gap up to this wide (radians) the worst orientation is the middle, to first order.
+        /// What an end of the range cuts off from a gap, up to this wide (radians), is worst at its ends or its middle, to first order.
         const NARROW: f64 = 1e-4;
         let range = range.unwrap_or(&PhiRange::FULL);
-        if tol == 0.0
-            && !(self.allows_pose(at, direction(range.from), 0.0) && self.allows_pose(at, direction(range.to()), 0.0))
-        {
+        let ends = [range.from, range.to()];
+        if !ends.iter().all(|&phi| self.allows_pose(at, direction(phi), tol)) {
             return false;
         }
-        let set = self.orientations(at, super::reach::TOUCH * size);
-        if range.width <= SEAM {
-            return set.contains(range.from) || self.allows_pose(at, direction(range.from), tol);
-        }
-        set.complement().intersect(&range.set()).intervals().iter().all(|&[from, to]| {
-            to - from <= SEAM
-                || (tol > 0.0
-                    && to - from <= NARROW
-                    && [from, 0.5 * (from + to), to].iter().all(|&phi| self.allows_pose(at, direction(phi), tol)))
-        })
+        // Between two orientations where a limit is met the middle decides, within the tolerance asked for: so a place on the edge, where the
+        // violation stays below it through a whole gap, is one that belongs.
+        let set = self.orientations(at, tol.max(super::reach::TOUCH * size));
+        let allowed = |phi: &f64| self.allows_pose(at, direction(*phi), tol);
+        range.width <= SEAM
+            || set.complement().intersect(&range.set()).intervals().iter().all(|&[from, to]| {
+                let within = || tol > 0.0 && to - from <= NARROW && [from, 0.5 * (from + to), to].iter().all(allowed);
+                to - from <= SEAM || within()
+            })
     }
 
     /// The least and the greatest distance of the pivots over a range of orientations.

@@ -35,6 +35,8 @@ const SAME_VERTEX: f64 = 1e-10;
 const TOUCHING: f64 = 1e-6;
 /// The normals of two limits of one leg are opposite below this (error bound: where modes merge they are opposite to roundings, else far from it).
 const CUSP: f64 = 1e-7;
+/// Curves with contact of the third order, as symmetric mechanisms have, stay closer than sides can tell over a piece this long, as a share of the mechanism's length.
+const HIGH_CONTACT: f64 = 1e-3;
 /// An orientation this far outside its range, in radians, is at its end.
 const PHI_SLACK: f64 = 1e-12;
 /// Where along a piece it is looked at: first in the middle.
@@ -494,6 +496,13 @@ impl<'a> Tracer<'a> {
         self.prune(&mut boundary);
         // What runs along a boundary adds nothing to it.
         undecided.retain(|open| !boundary.iter().any(|other| self.along(&open.0, &other.0)));
+        // Nor do short ones where curves touch to a high order, if all loops close without them.
+        if balance(&boundary).values().all(|&sum| sum == 0) {
+            undecided.retain(|(piece, _, _)| {
+                let ends = [piece.from, piece.to].map(|t| self.eval(piece.curve, t).0);
+                (ends[1] - ends[0]).norm() > HIGH_CONTACT * self.size
+            });
+        }
         out.undecided = undecided.iter().map(|(piece, on_left, look)| self.arc(piece, *on_left, look)).collect();
         join(&mut boundary);
         for (piece, on_left, look) in &boundary {
@@ -521,12 +530,7 @@ impl<'a> Tracer<'a> {
     /// Takes away pieces that lead nowhere and run along others, closer than their sides could tell.
     fn prune(&self, pieces: &mut Vec<(Piece, bool, Look)>) {
         loop {
-            let mut balance: HashMap<usize, i32> = HashMap::new();
-            for (piece, on_left, _) in pieces.iter() {
-                let side = if *on_left { 1 } else { -1 };
-                *balance.entry(piece.start).or_default() += side;
-                *balance.entry(piece.end).or_default() -= side;
-            }
+            let balance = balance(pieces);
             if balance.values().all(|&sum| sum == 0) {
                 return;
             }
@@ -589,6 +593,17 @@ impl<'a> Tracer<'a> {
         let [start, end] = [start, end].map(|vertex| self.curves.vertices[vertex].into());
         BoundaryArc { curve, start, end, active: look.active.clone() }
     }
+}
+
+/// How many more pieces leave a vertex than arrive.
+fn balance(pieces: &[(Piece, bool, Look)]) -> HashMap<usize, i32> {
+    let mut balance = HashMap::new();
+    for (piece, on_left, _) in pieces {
+        let side = if *on_left { 1 } else { -1 };
+        *balance.entry(piece.start).or_default() += side;
+        *balance.entry(piece.end).or_default() -= side;
+    }
+    balance
 }
 
 /// Joins pieces of one curve that follow each other where nothing else ends.
