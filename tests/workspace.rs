@@ -402,3 +402,95 @@ fn margins_are_radii_of_discs_inside() {
     }
     assert!(inside > scale(30), "{inside}");
 }
+
+#[test]
+fn what_cannot_be_asked_is_refused_by_name() {
+    let sound = fourth([[8.0, 12.0], [5.0, 15.0], [10.0, 17.0]]);
+    let ask = |robot: &Manipulator, kind: WorkspaceKind, modes: &str| {
+        let modes = modes.parse::<WorkspaceModes>().map_err(|error| error.to_string())?;
+        robot.workspace(&kind, &modes).map(|_| ()).map_err(|error| error.to_string())
+    };
+    let error = |change: &dyn Fn(&mut Manipulator)| {
+        let mut robot = sound.clone();
+        change(&mut robot);
+        ask(&robot, WorkspaceKind::Dextrous, "both").expect_err("cannot be asked")
+    };
+    assert_eq!(ask(&sound, WorkspaceKind::Dextrous, "both"), Ok(()));
+    assert_eq!(
+        error(&|robot| robot.legs[1].limits[1] = Some([15.0, 5.0])),
+        "leg 2: limits of joint 2: [15, 5] must not decrease"
+    );
+    assert_eq!(
+        error(&|robot| robot.legs[2].limits[1] = Some([1.0, f64::NAN])),
+        "leg 3: limits of joint 2: NaN must be finite"
+    );
+    assert_eq!(
+        error(&|robot| robot.legs[0] = Leg { actuated: [false, true, false], ..Leg::rrp([0.0; 2], 1.0, [0.0; 2], 0.0) }),
+        "leg 1: workspaces of legs RRP are not covered; those of RPR, RRR and PRR are"
+    );
+    assert_eq!(
+        error(&|robot| robot.legs[1] = Leg::rrr([0.0; 2], 1.0, 0.0, [0.0; 2])),
+        "leg 2: links[1]: a length of 0 joins two pivots into one, which workspaces do not cover"
+    );
+    assert_eq!(
+        error(&|robot| robot.legs.iter_mut().for_each(|leg| leg.limits[1] = None)),
+        "leg 1: joint 2 has no limits, and no other leg is bounded either, so the workspace is infinite"
+    );
+    assert_eq!(error(&|robot| robot.reference.x = f64::INFINITY), "reference: inf must be finite");
+    // One bounded leg bounds it.
+    let mut one = sound.clone();
+    (one.legs[0].limits[1], one.legs[2].limits[1]) = (None, None);
+    assert_eq!(ask(&one, WorkspaceKind::Constant { phi: 0.1 }, "both"), Ok(()));
+    let of = |kind| ask(&sound, kind, "both").expect_err("cannot be asked");
+    assert_eq!(of(WorkspaceKind::Constant { phi: f64::NAN }), "phi: NaN must be finite");
+    let range = |from, width| PhiRange { from, width };
+    assert_eq!(of(WorkspaceKind::Total(range(f64::INFINITY, 1.0))), "from: inf must be finite");
+    assert_eq!(of(WorkspaceKind::Inclusive(range(0.0, -1.0))), "width of the range of phi: -1 must be ≥ 0");
+    let named = |modes| ask(&sound, WorkspaceKind::Dextrous, modes).expect_err("names no modes");
+    assert_eq!(named("++"), "mode \"++\": 2 signs, must be 3, one a leg");
+    assert_eq!(named("+x+"), "mode \"+x+\": must be \"both\" or a sign + or - for each leg");
+    assert_eq!(named(""), "mode \"\": must be \"both\" or a sign + or - for each leg");
+}
+
+/// Tangent, coincident and empty: what is decided on an edge is decided the same way by every road.
+#[test]
+fn tangency_and_coincidence_have_their_answers() {
+    let ring =
+        |a: [f64; 2], low: f64, high: f64| Leg { limits: [None, Some([low, high]), None], ..Leg::rpr(a, [0.0; 2]) };
+    let region = |legs: Vec<Leg>| {
+        let robot = Manipulator::new("", legs).expect("is sound");
+        let region =
+            robot.workspace(&WorkspaceKind::Constant { phi: 0.0 }, &WorkspaceModes::Both).expect("is covered").region;
+        closes(&region);
+        region
+    };
+    // Two discs that touch from outside: a point; a third far around changes nothing.
+    let touch = region(vec![ring([0.0, 0.0], 0.0, 1.0), ring([3.0, 0.0], 0.0, 2.0), ring([0.0, 0.0], 0.0, 9.0)]);
+    let [Isolated::Point { at, active }] = &touch.isolated[..] else { panic!("{touch:?}") };
+    assert!((at[0] - 1.0).abs() < 1e-14 && at[1].abs() < 1e-14 && active.len() == 2, "{touch:?}");
+    // Three times the same ring: each arc names all three legs.
+    let same = region(vec![ring([0.0, 0.0], 1.0, 2.0); 3]);
+    assert!((same.area - 3.0 * std::f64::consts::PI).abs() < 1e-13 && (same.components, same.holes) == (1, 1));
+    assert!(same.loops.iter().all(|l| l.arcs.len() == 1 && l.arcs[0].active.len() == 3), "{same:?}");
+    // A ring of no width is a circle, cut by a half of the plane's worth of disc to an arc.
+    let circle = region(vec![ring([0.0, 0.0], 2.0, 2.0), ring([2.0, 0.0], 0.0, 2.0), ring([0.0, 0.0], 0.0, 9.0)]);
+    let length: f64 = (circle.isolated.iter())
+        .map(|part| match part {
+            Isolated::Curve(arc) => arc.length(),
+            Isolated::Point { .. } => 0.0,
+        })
+        .sum();
+    assert!(circle.loops.is_empty() && (length - 4.0 * std::f64::consts::PI / 3.0).abs() < 1e-12, "{circle:?}");
+    // A hole that touches the rim from inside, and one that just does not.
+    let pinched = region(vec![ring([0.0, 0.0], 0.0, 3.0), ring([1.0, 0.0], 2.0, 9.0), ring([0.0, 0.0], 0.0, 9.0)]);
+    assert!((pinched.area - 5.0 * std::f64::consts::PI).abs() < 1e-12 && pinched.components == 1, "{pinched:?}");
+    let free = region(vec![ring([0.0, 0.0], 0.0, 3.0), ring([1.0, 0.0], 2.0 - 1e-9, 9.0), ring([0.0, 0.0], 0.0, 9.0)]);
+    assert!((free.components, free.holes) == (1, 1));
+    // Apart: empty is an answer.
+    let none = region(vec![ring([0.0, 0.0], 0.0, 1.0), ring([3.0, 0.0], 0.0, 1.0), ring([0.0, 0.0], 0.0, 9.0)]);
+    assert!(none.is_empty() && none.bbox.is_none() && none.centroid.is_none() && none.area == 0.0);
+    // Two lens-shaped pieces that touch in a point are two.
+    let two =
+        region(vec![ring([0.0, 0.0], 1.0, 3.0), ring([2.0, 0.0], 1.0, 9.0), ring([1.0, 0.0], 0.0, 3.0_f64.sqrt())]);
+    assert!(two.components >= 2, "{two:?}");
+}

@@ -210,11 +210,17 @@ fn the_frame_and_the_order_of_legs_do_not_matter() {
             let other = region(&moved, &turned(&kind, by));
             let same = |x: f64, y: f64, scale: f64| (x / scale - y).abs() <= 1e-12 * y.abs().max(own.area);
             assert!(same(other.area, own.area, scale * scale), "{label}: {:e}", other.area / scale / scale - own.area);
-            assert!(same(other.perimeter, own.perimeter, scale), "{label}");
+            assert!(
+                same(other.perimeter, own.perimeter, scale),
+                "{label}: perimeter off by {:e} of {}",
+                other.perimeter / scale - own.perimeter,
+                own.perimeter
+            );
             assert_eq!((other.components, other.holes), (own.components, own.holes), "{label}");
             let centroid = |region: &Region| Point::from(region.centroid.expect("has an area"));
             let expected = Rotation2::new(angle) * centroid(&own) * scale + shift;
-            assert!((centroid(&other) - expected).norm() <= 1e-10 * (expected.norm() + shift.norm()), "{label}");
+            let slack = 1e-10 * (own.area.sqrt() * scale + shift.norm());
+            assert!((centroid(&other) - expected).norm() <= slack, "{label}");
         }
     }
 }
@@ -245,6 +251,135 @@ fn ranges_add_up() {
             assert!(is_one_or_none(all, some), "{name} {point:?}");
         }
     }
+}
+
+// ── assemblies ──
+
+/// Every place reached is reached by some assembly, and each assembly reaches only such places.
+fn assemblies_cover(reach: &Reach, random: &mut Random) -> Vec<f64> {
+    let whole = arcs(&reach.workspace(&WorkspaceKind::Maximal).expect("is bounded").region);
+    let assemblies = reach.assemblies().expect("is bounded");
+    assert!(assemblies.iter().all(|each| each.region.unclosed.is_empty()));
+    let each: Vec<Vec<BoundaryArc>> = assemblies.iter().map(|each| arcs(&each.region)).collect();
+    for _ in 0..40 {
+        let arc = &whole[random.below(whole.len() as u64) as usize];
+        let off = Point::new(random.between(-1.0, 1.0), random.between(-1.0, 1.0)) * (0.2 * reach.size());
+        let place = along(arc, random.unit()) + off;
+        let (all, near) = winding(&whole, place);
+        if near > 1e-9 * reach.size() {
+            let by = each.iter().filter(|part| winding(part, place).0 > 0.5).count();
+            assert!(is_one_or_none(all, by > 0), "{place:?} reached by {by} assemblies, {all}");
+        }
+    }
+    assemblies.iter().map(|each| each.region.area).collect()
+}
+
+#[test]
+fn assemblies_of_the_reference_manipulators() {
+    let data = golden();
+    let mut random = Random(3);
+    let expected: [(&str, &[f64]); 6] = [
+        ("M1A", &[315.848]),
+        ("M1_sep1", &[277.6546, 94.0087]),
+        ("M1A_cen", &[283.0818]),
+        ("RRR1", &[120.4103]),
+        ("RRR3", &[66.3975]),
+        // With its working modes: they merge where the links stand across the sliders.
+        ("PRR1", &[34.9194]),
+    ];
+    for (name, areas) in expected {
+        let reach = reach(&manipulator(&data["manipulators"][name]));
+        let found = assemblies_cover(&reach, &mut random);
+        assert_eq!(found.len(), areas.len(), "{name}: {found:?}");
+        for (found, area) in found.iter().zip(areas) {
+            assert!((found - area).abs() < 1e-3, "{name}: {found} {area}");
+        }
+    }
+}
+
+/// A slider-driven manipulator whose working modes cannot be left: each choice of modes is an assembly of its own, with its own workspace.
+#[test]
+fn modes_that_never_merge_are_assemblies_of_their_own() {
+    let leg = |x: f64, y: f64, alpha: f64, b: [f64; 2]| Leg {
+        limits: [Some([-0.2, 0.2]), None, None],
+        ..Leg::prr([x, y], alpha, 3.0, b)
+    };
+    let legs = vec![
+        leg(-3.0, 0.0, 0.1, [0.0, 0.0]),
+        leg(3.2, 0.3, 0.2, [0.4, 0.1]),
+        leg(0.1, 3.1, TAU / 4.0 + 0.3, [0.1, 0.5]),
+    ];
+    let robot = Manipulator::new("", legs).expect("is sound");
+    let all = assemblies_cover(&reach(&robot), &mut Random(5));
+    let mut by_modes: Vec<f64> = Vec::new();
+    for k in 0..8 {
+        let modes = WorkspaceModes::Signs([1, 2, 4].iter().map(|bit| k & bit == 0).collect());
+        by_modes.extend(assemblies_cover_or_none(&robot, &modes));
+    }
+    by_modes.sort_by(|a, b| b.total_cmp(a));
+    assert!(!all.is_empty() && all.len() <= by_modes.len(), "{all:?} {by_modes:?}");
+    assert!(all[0] >= by_modes[0] * (1.0 - 1e-12), "{all:?} {by_modes:?}");
+}
+
+fn assemblies_cover_or_none(robot: &Manipulator, modes: &WorkspaceModes) -> Vec<f64> {
+    let reach = robot.reach(modes).expect("is covered");
+    let region = reach.workspace(&WorkspaceKind::Maximal).expect("is bounded").region;
+    if region.loops.is_empty() { Vec::new() } else { assemblies_cover(&reach, &mut Random(6)) }
+}
+
+/// The two poses of figure 14 of Merlet, Gosselin and Mouly are one assembly's: at (9, 14.4) their intervals of orientations are one, so the platform goes there, turns,
+/// and comes back.
+#[test]
+fn the_poses_of_figure_14_are_joined_by_a_motion() {
+    let data = golden();
+    let robot = manipulator(&data["manipulators"]["M1A"]);
+    let reach = reach(&robot);
+    let (here, there) = (Point::new(7.0, 20.0), Point::new(9.0, 14.4));
+    let holding = |place: Point, phi: f64| {
+        let set = reach.orientations(place);
+        let interval = set.intervals().iter().find(|[from, to]| (phi - from).rem_euclid(TAU) <= to - from).copied();
+        interval.unwrap_or_else(|| panic!("{phi} is not allowed at {place:?}"))
+    };
+    assert!(holding(here, 270f64.to_radians()) != holding(here, 225f64.to_radians()), "two sheets at the start");
+    // Each pose is carried to the meeting place in small steps, always turned to the middle of its interval.
+    let arrives = [270f64, 225.0].map(|start| {
+        let mut phi = start.to_radians();
+        for step in 0..=2000 {
+            let place = here.lerp(&there, f64::from(step) / 2000.0);
+            let [from, to] = holding(place, phi);
+            phi = 0.5 * (from + to);
+        }
+        holding(there, phi)
+    });
+    assert_eq!(arrives[0], arrives[1], "one interval at the meeting place");
+    for start in [270f64, 225.0] {
+        let workspace = reach.assembly(&assur::Pose::new(7.0, 20.0, start.to_radians())).expect("is allowed");
+        assert!((workspace.region.area - 315.848).abs() < 1e-3);
+    }
+    // Where leg 1 is held longer the sheets stay apart.
+    let apart = self::reach(&manipulator(&data["manipulators"]["M1_sep1"]));
+    let assemblies = apart.assemblies().expect("is bounded");
+    for (assembly, sheet) in assemblies.iter().zip([1.0, -1.0]) {
+        // Angle of the platform line from A1 to the pivot, between 0 and pi on one sheet.
+        let place = Point::from(assembly.region.centroid.expect("has an area"));
+        let set = apart.orientations(place);
+        let psi = |phi: f64| (phi - place.y.atan2(place.x)).rem_euclid(TAU);
+        let own = set
+            .intervals()
+            .iter()
+            .map(|[from, to]| 0.5 * (from + to))
+            .find(|phi| (psi(*phi) < 0.5 * TAU) == (sheet > 0.0));
+        let Some(phi) = own else { continue };
+        let from = apart.assembly(&assur::Pose::new(place.x, place.y, phi)).expect("is allowed");
+        assert!(
+            (from.region.area - assembly.region.area).abs() < 1e-9,
+            "{} {}",
+            from.region.area,
+            assembly.region.area
+        );
+    }
+    let error = apart.assembly(&assur::Pose::new(100.0, 0.0, 0.0)).unwrap_err();
+    assert_eq!(error.to_string(), "leg 1: does not allow the pose of the assembly");
 }
 
 // ── random manipulators ──

@@ -36,7 +36,7 @@ pub(super) struct Plan<'a> {
 
 /// Curves, meeting points and gaps nearer than this much of the size are one (error bound: centres, radii and meeting points carry some tens
 /// of roundings of that length; a hundred times that leaves room for three curves through a point).
-const SAME: f64 = 1e-12;
+pub(super) const SAME: f64 = 1e-12;
 /// A meeting point belongs to the region if its limits are missed by no more than this much of the size (heuristic, generous: where two working modes
 /// merge, a joint moves as the square root of a rounding; points taken in vain only cut a piece in two).
 const NEAR: f64 = 1e-7;

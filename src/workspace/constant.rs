@@ -67,7 +67,7 @@ impl Reach {
         })
     }
 
-    fn constant(&self, phi: f64) -> Region {
+    pub(super) fn constant(&self, phi: f64) -> Region {
         let turn = direction(phi);
         let bounds: Vec<Bound> = (self.limits())
             .map(|limit| Bound {

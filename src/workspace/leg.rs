@@ -45,6 +45,8 @@ pub(super) struct LegReach {
     pub(super) a: Vector2<f64>,
     /// Platform pivot from the reference point, platform frame.
     pub(super) b: Vector2<f64>,
+    /// The reference point in the platform frame.
+    pub(super) reference: Vector2<f64>,
     /// Range of the stroke; infinite where there is none.
     pub(super) stroke: [f64; 2],
     /// Sector of the first joint (of a PRR leg: of joint 2).
@@ -92,6 +94,7 @@ impl LegReach {
             chain: Chain::Rpr { offset: 0.0 },
             a: leg.base.at,
             b: leg.platform.at - reference,
+            reference,
             stroke: [f64::NEG_INFINITY, f64::INFINITY],
             base_sector: None,
             elbow_sector: None,
@@ -150,7 +153,52 @@ impl LegReach {
     }
 
     /// The same in one working mode.
+    ///
+    /// Where its modes nearly merge, a joint moves as the root of the gap between what the leg spans and what it could span at most (or at least), and a rounding of the
+    /// gap hides that joint; there any gap within the tolerance will do.
     pub(super) fn allows_in(&self, plus: bool, at: Vector2<f64>, turn: Vector2<f64>, tol: f64) -> bool {
+        /// A gap below this much of the leg's span is near (heuristic: from there on a rounding moves the joint by less than 1e-12 of it).
+        const NEAR: f64 = 1e-8;
+        if !self.spans(at, tol) {
+            return false;
+        }
+        if self.allows_spanned(plus, at, turn, tol, 0.0) {
+            return true;
+        }
+        tol > 0.0
+            && self.gap(at) < NEAR * self.span()
+            && [tol, -tol].iter().any(|&shift| self.allows_spanned(plus, at, turn, tol, shift))
+    }
+
+    /// The length that sets the scale of the gap.
+    fn span(&self) -> f64 {
+        match self.chain {
+            Chain::Rpr { offset } => offset.abs(),
+            Chain::Rrr { l1, l2 } => l1 + l2,
+            Chain::Prr { l, .. } => l,
+        }
+    }
+
+    /// How far the platform pivot is from where the modes merge; negative where the leg does not reach.
+    fn gap(&self, at: Vector2<f64>) -> f64 {
+        let r = at - self.a;
+        match self.chain {
+            Chain::Rpr { offset } => r.norm() - offset.abs(),
+            Chain::Rrr { l1, l2 } => {
+                let d = r.norm();
+                (l1 + l2 - d).min(d - (l1 - l2).abs())
+            }
+            Chain::Prr { l, e } => l - e.perp(&r).abs(),
+        }
+    }
+
+    /// Whether the leg reaches the platform pivot with its joints free, a miss of `tol` overlooked.
+    fn spans(&self, at: Vector2<f64>, tol: f64) -> bool {
+        self.gap(at) >= -tol
+    }
+
+    /// Whether the joints are in their ranges at a platform place that the leg spans, its gap taken as greater by `shift`.
+    fn allows_spanned(&self, plus: bool, at: Vector2<f64>, turn: Vector2<f64>, tol: f64, shift: f64) -> bool {
         let r = at - self.a;
         let side = if plus { 1.0 } else { -1.0 };
         let within = |rho: f64| self.stroke[0] - tol <= rho && rho <= self.stroke[1] + tol;
@@ -158,54 +206,39 @@ impl LegReach {
         match self.chain {
             Chain::Rpr { offset } => {
                 let d = r.norm();
-                let gap = d - offset.abs();
-                if gap < -tol {
-                    return false;
-                }
-                let rho = side * (gap.max(0.0) * (d + offset.abs())).sqrt();
+                let gap = (d - offset.abs() + shift).max(0.0);
+                let rho = side * (gap * (d + offset.abs())).sqrt();
                 // The slider's direction times the distance of the pivots, so that the sector's tolerance is a length; where
                 // the pivots meet every direction is one.
                 let u = if offset == 0.0 { r * side } else { product(Vector2::new(rho, -offset), r) / d };
                 within(rho) && points(&self.base_sector, u) && points(&self.platform_sector, seen_from(turn, u))
             }
             Chain::Rrr { l1, l2 } => {
-                let d = r.norm();
-                if d > l1 + l2 + tol || d < (l1 - l2).abs() - tol {
-                    return false;
-                }
                 if self.base_sector.is_none() && self.elbow_sector.is_none() && self.platform_sector.is_none() {
                     return true;
                 }
+                let d = r.norm();
                 // Half angle of the elbow: tan² = ((l1+l2)² - d²)/(d² - (l1-l2)²).
-                let above = ((l1 + l2 - d) * (l1 + l2 + d)).max(0.0);
-                let below = ((d - (l1 - l2)) * (d + (l1 - l2))).max(0.0);
-                let four = above + below; // 4 l1 l2
-                let elbow = Vector2::new(below - above, side * 2.0 * (above * below).sqrt()) / four;
+                let above = ((l1 + l2 - d + shift) * (l1 + l2 + d)).max(0.0);
+                let below = ((d - (l1 - l2).abs() + shift) * (d + (l1 - l2).abs())).max(0.0);
+                let elbow = Vector2::new(below - above, side * 2.0 * (above * below).sqrt()) / (above + below);
                 if !points(&self.elbow_sector, elbow * l2) {
                     return false;
                 }
-                if self.base_sector.is_none() && self.platform_sector.is_none() {
+                // Folded onto the base pivot the leg turns freely.
+                if d == 0.0 || (self.base_sector.is_none() && self.platform_sector.is_none()) {
                     return true;
                 }
-                if d == 0.0 {
-                    // Folded onto the base pivot the leg turns freely.
-                    return true;
-                }
-                let u = product(conjugate(Vector2::new(l1, 0.0) + elbow * l2), r) / (d * d);
+                let arm = Vector2::new(l1, 0.0) + elbow * l2;
+                let u = product(conjugate(arm), r) / (d * arm.norm());
                 points(&self.base_sector, u * l1)
                     && points(&self.platform_sector, seen_from(turn, product(u, elbow)) * l2)
             }
             Chain::Prr { l, e } => {
                 let seen = seen_from(e, r);
-                let gap = l - seen.y.abs();
-                if gap < -tol {
-                    return false;
-                }
-                let half = (gap.max(0.0) * (l + seen.y.abs())).sqrt();
-                // Where the modes nearly merge a small gap hides the stroke behind a root: any of a gap within the tolerance will do.
-                let [least, most] = [gap - tol, gap + tol].map(|gap| (gap.max(0.0) * (l + seen.y.abs())).sqrt());
-                let [low, high] = if plus { [least, most] } else { [-most, -least] };
-                if seen.x + high < self.stroke[0] - tol || seen.x + low > self.stroke[1] + tol {
+                let gap = (l - seen.y.abs() + shift).max(0.0);
+                let half = (gap * (l + seen.y.abs())).sqrt();
+                if !within(seen.x + side * half) {
                     return false;
                 }
                 let w = product(e, Vector2::new(-side * half, seen.y));
@@ -306,6 +339,15 @@ impl LegReach {
                 merge(LimitCause::Right, Dyad::PR { a: a - left(e) * l, u: e, b }, -1.0);
             }
         }
+        out
+    }
+
+    /// The leg in one of its working modes.
+    pub(super) fn in_mode(&self, plus: bool) -> Self {
+        let mut out = self.clone();
+        out.modes = [self.modes[0] && plus, self.modes[1] && !plus];
+        out.limits.retain(|limit| limit.mode.is_none_or(|mode| mode == plus));
+        out.ring = out.find_ring();
         out
     }
 

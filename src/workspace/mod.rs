@@ -20,6 +20,7 @@
 //! the maximal, inclusive, total and dextrous workspaces are mended here (derivations/ring_reach.rs, slider_reach.rs, joint_ranges.rs).
 
 mod arrangement;
+mod assembly;
 mod boundary;
 mod constant;
 mod folds;

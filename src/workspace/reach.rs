@@ -8,6 +8,7 @@ use super::leg::{Chain, LegReach};
 use super::limits::{Limit, WorkspaceError, WorkspaceModes};
 use super::membership::Edge;
 use super::region::WorkspaceKind;
+use super::total::Sweep;
 use crate::manipulator::Manipulator;
 use crate::plane::{AngleSet, PhiRange, direction};
 
@@ -126,8 +127,8 @@ impl Reach {
     }
 
     fn allows_all(&self, at: Vector2<f64>, range: Option<&PhiRange>) -> bool {
-        let tol = TOUCH * self.size;
-        self.legs.iter().all(|leg| leg.allows_all(at, range, tol, self.size))
+        let (sweep, tol) = (Sweep::new(range), TOUCH * self.size);
+        self.legs.iter().all(|leg| leg.allows_all(at, &sweep, tol, self.size))
     }
 
     /// Whether every leg allows the pose (C, phi), phi in radians.

@@ -8,13 +8,13 @@
 
 use nalgebra::Vector2;
 
-use super::arrangement::{Bound, Plan};
+use super::arrangement::{Bound, Plan, SAME};
 use super::leg::{Chain, LegReach};
 use super::limits::{ActiveLimit, Limit, LimitCause, WorkspaceError};
 use super::reach::Reach;
 use super::region::Region;
 use crate::linkage::{Dyad, Offset};
-use crate::plane::{Carrier, Meeting, PhiRange, Sector, direction, product};
+use crate::plane::{Carrier, Meeting, PhiRange, Sector, conjugate, direction, product};
 
 impl Reach {
     /// The places reached in every orientation of a range, or in every one.
@@ -30,8 +30,27 @@ impl Reach {
         for leg in &self.legs {
             leg.worst(range, self.size, &mut bounds);
         }
-        let admits = |leg: usize, p: Vector2<f64>, tol: f64| self.legs[leg].allows_all(p, range, tol, self.size);
+        let sweep = Sweep::new(range);
+        let admits = |leg: usize, p: Vector2<f64>, tol: f64| self.legs[leg].allows_all(p, &sweep, tol, self.size);
         Ok(Plan { bounds: &bounds, legs: self.legs.len(), admits: &admits, size: self.size }.region())
+    }
+}
+
+/// A range of orientations with its directions, which every leg shares.
+pub(super) struct Sweep {
+    range: PhiRange,
+    /// Directions of its ends.
+    ends: [Vector2<f64>; 2],
+    /// What a vector along x sweeps; `None` for a full turn.
+    sector: Option<Sector>,
+}
+
+impl Sweep {
+    /// `None` stands for every orientation.
+    pub(super) fn new(range: Option<&PhiRange>) -> Self {
+        let range = *range.unwrap_or(&PhiRange::FULL);
+        let ends = [range.from, range.to()].map(direction);
+        Self { range, ends, sector: Sector::new(ends[0], range.width) }
     }
 }
 
@@ -47,18 +66,17 @@ impl LegReach {
     /// Whether the leg allows a place in every orientation of a range (`None`: of all).
     ///
     /// Bounds missed by at most `tol`, a length, count as met.
-    pub(super) fn allows_all(&self, at: Vector2<f64>, range: Option<&PhiRange>, tol: f64, size: f64) -> bool {
+    pub(super) fn allows_all(&self, at: Vector2<f64>, sweep: &Sweep, tol: f64, size: f64) -> bool {
         if let Some([low, high]) = self.ring {
-            let (nearest, furthest) = self.distances(at, range);
+            let (nearest, furthest) = self.distances(at, sweep);
             return low - tol <= nearest && furthest <= high + tol;
         }
         /// Gaps of the set of orientations narrower than this (radians) come from rounding its ends.
         const SEAM: f64 = 1e-13;
         /// What an end of the range cuts off from a gap, up to this wide (radians), is worst at its ends or its middle, to first order.
         const NARROW: f64 = 1e-4;
-        let range = range.unwrap_or(&PhiRange::FULL);
-        let ends = [range.from, range.to()];
-        if !ends.iter().all(|&phi| self.allows_pose(at, direction(phi), tol)) {
+        let range = &sweep.range;
+        if !sweep.ends.iter().all(|&turn| self.allows_pose(at, turn, tol)) {
             return false;
         }
         // Between two orientations where a limit is met the middle decides, within the tolerance asked for: so a place on the edge, where the
@@ -73,22 +91,16 @@ impl LegReach {
     }
 
     /// The least and the greatest distance of the pivots over a range of orientations.
-    pub(super) fn distances(&self, at: Vector2<f64>, range: Option<&PhiRange>) -> (f64, f64) {
+    fn distances(&self, at: Vector2<f64>, sweep: &Sweep) -> (f64, f64) {
         let (away, arm) = (at - self.a, self.b.norm());
         let d = away.norm();
-        let Some(range) = range else { return ((d - arm).abs(), d + arm) };
-        let ends = [range.from, range.to()].map(|phi| (away + product(direction(phi), self.b)).norm());
-        let (mut nearest, mut furthest) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
-        if let Some(arm_dir) = self.b.try_normalize(0.0)
-            && let Some(sector) = Sector::new(product(direction(range.from), arm_dir), range.width)
-        {
-            if sector.contains(away, 0.0) {
-                furthest = d + arm;
-            }
-            if sector.contains(-away, 0.0) {
-                nearest = (d - arm).abs();
-            }
-        }
+        let aligned = [(d - arm).abs(), d + arm];
+        let Some(sector) = sweep.sector else { return (aligned[0], aligned[1]) };
+        let ends = sweep.ends.map(|turn| (away + product(turn, self.b)).norm());
+        // The platform arm sweeps over A->C, or over the opposite direction.
+        let seen = product(conjugate(self.b), away);
+        let nearest = if sector.contains(-seen, 0.0) { aligned[0] } else { ends[0].min(ends[1]) };
+        let furthest = if sector.contains(seen, 0.0) { aligned[1] } else { ends[0].max(ends[1]) };
         (nearest, furthest)
     }
 
@@ -104,15 +116,21 @@ impl LegReach {
                 out.push(Bound { carrier, leg, active: active.iter().copied().collect() });
             }
         };
-        for limit in &self.limits {
-            if self.ring == Some([0.0, 0.0]) || !self.never_bounds(limit) {
-                for carrier in limit.alignments() {
-                    push(carrier, &[limit.active()]);
+        let arm = self.b.norm();
+        for limit in self.limits.iter().filter(|limit| !self.never_bounds(limit)) {
+            match (self.ring, limit.dyad) {
+                // Of a ring it is known which alignments are the worst: see derivations/ring_reach.rs.
+                (Some(_), Dyad::RR { a, length, .. }) => {
+                    let radii = if limit.sense > 0.0 { [length - arm, -1.0] } else { [length + arm, arm - length] };
+                    for radius in radii.into_iter().filter(|&radius| radius >= -size * SAME) {
+                        push(Carrier::Circle { center: a, radius: radius.max(0.0) }, &[limit.active()]);
+                    }
                 }
-                if let Some(range) = range {
-                    push(limit.at_orientation(direction(range.from)), &[limit.active(), ActiveLimit::PhiFrom]);
-                    push(limit.at_orientation(direction(range.to())), &[limit.active(), ActiveLimit::PhiTo]);
-                }
+                _ => limit.alignments().into_iter().for_each(|carrier| push(carrier, &[limit.active()])),
+            }
+            if let Some(range) = range {
+                push(limit.at_orientation(direction(range.from)), &[limit.active(), ActiveLimit::PhiFrom]);
+                push(limit.at_orientation(direction(range.to())), &[limit.active(), ActiveLimit::PhiTo]);
             }
         }
         if self.ring.is_none() {
@@ -133,8 +151,6 @@ impl LegReach {
 
     /// The curve of `C` on which two limits of this leg are met at once: circles about a fixed point, or lines at one orientation.
     fn corner(&self, i: &Limit, j: &Limit, range: Option<&PhiRange>, size: f64, push: &mut dyn FnMut(Carrier)) {
-        /// Touching is decided within this much of the size, as in the arrangement.
-        const SAME: f64 = 1e-12;
         let same = SAME * size;
         let arm = self.b.norm();
         let meet = |a: Carrier, b: Carrier| match a.meet(&b, same) {
@@ -142,6 +158,14 @@ impl LegReach {
             Meeting::Same => Default::default(),
         };
         let circle = |center, radius| Carrier::Circle { center, radius };
+        // At the end of its travel a slider's region goes over from a side to a half circle without a corner.
+        let slider = |limit: &Limit| {
+            matches!(limit.cause, LimitCause::JointMin { joint: 0, .. } | LimitCause::JointMax { joint: 0, .. })
+        };
+        let side = |limit: &Limit| matches!(limit.cause, LimitCause::Left | LimitCause::Right);
+        if (slider(i) && side(j)) || (side(i) && slider(j)) {
+            return;
+        }
         // Joints 1 and 3 at their ends, one mode: what lies between them is a pivot fixed in base and platform.
         let ends = |limit: &Limit| match limit.cause {
             LimitCause::JointMin { joint, .. } | LimitCause::JointMax { joint, .. } => Some(joint),

@@ -80,6 +80,8 @@ pub(super) struct Curves {
     pub(super) coupled: Vec<(Coupled, [usize; 2])>,
     pub(super) curves: Vec<Curve>,
     pub(super) vertices: Vec<Point>,
+    /// Orientations at which limits begin or cease to meet each other.
+    turning: Vec<f64>,
     /// First of the branches of each coupled curve.
     first_branch: Vec<usize>,
     tol: f64,
@@ -96,6 +98,7 @@ impl Curves {
             coupled: Vec::new(),
             curves: Vec::new(),
             vertices: Vec::new(),
+            turning: Vec::new(),
             first_branch: Vec::new(),
             tol: TOUCH * size,
             far: FAR * size,
@@ -146,6 +149,23 @@ impl Curves {
             }
             Course::Upright { on, .. } => CurvePoint { at: on.at(t), velocity: along(&on, t), turn: None },
         }
+    }
+
+    /// Orientations at which the places allowed at one orientation can change their shape, sorted, in [-pi, pi).
+    pub(super) fn turning_points(&self) -> Vec<f64> {
+        let mut out: Vec<f64> = self.turning.iter().map(|phi| principal(*phi)).filter(|phi| phi.is_finite()).collect();
+        for curve in &self.curves {
+            if let Course::Motion { motion: Motion::Sliding { phi, .. }, source: Source::Pair, .. } = curve.course {
+                out.push(principal(phi));
+            }
+        }
+        for (curve, _) in &self.coupled {
+            for branch in curve.branches() {
+                out.extend([0.0, 1.0].map(|t| principal(curve.phi(branch, t))));
+            }
+        }
+        out.sort_by(f64::total_cmp);
+        out
     }
 
     fn vertex(&mut self, at: Point) -> usize {
@@ -331,6 +351,7 @@ impl Curves {
                 let vertex = self.vertex(place.c);
                 self.mark(curve, t, vertex);
                 let phi = motion.phi(t);
+                self.turning.push(phi);
                 for &g in generators {
                     self.mark_coupled(book, [g, k], &place, phi, vertex);
                     self.mark_upright(book, g, place.c, vertex);
@@ -440,6 +461,7 @@ impl Curves {
                 if self.surfaces[k].leg == leg && !generators.contains(&k) {
                     for t in motion.meets(&self.surfaces[k].form, self.tol) {
                         let at = motion.place(t).c;
+                        self.turning.push(motion.phi(t));
                         let vertex = self.vertex(at);
                         self.mark(curve, t, vertex);
                         for g in generators {
@@ -495,6 +517,7 @@ impl Curves {
                     for mode in triad.real_modes().modes() {
                         let c = Point::new(mode.pose.x, mode.pose.y);
                         let place = Place { c, turn: direction(mode.pose.phi) };
+                        self.turning.push(mode.pose.phi);
                         let vertex = self.vertex(c);
                         for pair in [[i, j], [i, k], [j, k]] {
                             self.mark_coupled(book, pair, &place, mode.pose.phi, vertex);

@@ -24,11 +24,23 @@ mod surface;
 
 pub use arc::CouplerArc;
 
+use nalgebra::Vector2;
+
 use super::reach::Reach;
 use super::region::{Workspace, WorkspaceKind};
 use crate::plane::PhiRange;
 
 impl Reach {
+    /// The part of the maximal workspace at whose places `reached` says so.
+    pub(super) fn folded_where(&self, reached: &dyn Fn(Vector2<f64>) -> bool) -> Workspace {
+        outline::outline_where(self, reached).workspace(&WorkspaceKind::Maximal)
+    }
+
+    /// Orientations, radians in [-pi, pi) and sorted, between which the places allowed at one orientation keep their shape: a superset.
+    pub(super) fn turning_points(&self) -> Vec<f64> {
+        curves::Curves::new(self, None).turning_points()
+    }
+
     /// The maximal workspace, or that of a range of orientations.
     pub(super) fn folded(&self, kind: &WorkspaceKind, range: Option<&PhiRange>) -> Workspace {
         outline::outline(self, range).workspace(kind)

@@ -127,6 +127,14 @@ pub(super) fn outline(reach: &Reach, range: Option<&PhiRange>) -> Outline {
     tracer.outline(&reached)
 }
 
+/// The outline of those places of the maximal workspace that are `reached`.
+pub(super) fn outline_where(reach: &Reach, reached: &Reached<'_>) -> Outline {
+    let mut tracer = Tracer::new(reach, None);
+    tracer.cross();
+    tracer.partial = true;
+    tracer.outline(reached)
+}
+
 /// The work in progress.
 pub(super) struct Tracer<'a> {
     pub(super) reach: &'a Reach,
@@ -134,6 +142,8 @@ pub(super) struct Tracer<'a> {
     pub(super) curves: Curves,
     /// Pieces along which an orientation vanishes.
     pub(super) folds: Vec<Piece>,
+    /// Whether only some of the places reached are asked for: what bounds others is nothing then.
+    partial: bool,
     size: f64,
 }
 
@@ -145,6 +155,7 @@ impl<'a> Tracer<'a> {
             range: range.copied(),
             curves: Curves::new(reach, range),
             folds: Vec::new(),
+            partial: false,
             size: reach.size(),
         };
         out.merge_vertices();
@@ -473,7 +484,7 @@ impl<'a> Tracer<'a> {
             }
             last = Some(look);
         }
-        (if last.is_some() { Standing::Undecided } else { Standing::Nothing }, last)
+        (if last.is_some() && !self.partial { Standing::Undecided } else { Standing::Nothing }, last)
     }
 
     /// The outline with respect to the places `reached`.
