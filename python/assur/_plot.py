@@ -414,11 +414,11 @@ def arcs(answer: ArcRegion, ax: Axes | None) -> Axes:
     ax = _axes(ax)
     ax.set_xlabel("y")
     ax.set_ylabel("z")
-    for loop in answer.loops:
-        outline = np.concatenate([arc.points() for arc in loop.arcs])
-        ax.fill(*outline.T, color=COLOURS[1], alpha=0.18, lw=0)
-        for arc in loop.arcs:
-            ax.plot(*arc.points().T, color=COLOURS[1], lw=1.5)
+    for loop, pieces in zip(answer.loops, answer.outlines(), strict=True):
+        colour = COLOURS[1] if loop.area > 0 else "white"
+        ax.fill(*np.concatenate(pieces).T, color=colour, alpha=0.18 if loop.area > 0 else 1.0, lw=0)
+        for piece in pieces:
+            ax.plot(*piece.T, color=COLOURS[1], lw=1.5)
     ax.set_title(f"{answer.kind}: area {answer.area:.6f}")
     return ax
 

@@ -170,14 +170,16 @@ class LinkageNode:
     parent: int | None
     number: int
     status: str
+    multiplicity: int
 
 
 @dataclass(frozen=True, eq=False)
 class LinkageAssembly:
-    """One assembly of the whole: which of each group's (from 1), and ``x, y, phi`` of each link from the reference assembly."""
+    """One assembly of the whole: which of each group's (from 1), ``x, y, phi`` of each link and the displacement of each joint from the reference assembly."""
 
     choice: tuple[int, ...]
     poses: FloatArray
+    displacements: FloatArray
     residual: float
 
 
@@ -195,6 +197,8 @@ class LinkageAssemblies(Report):
     nodes : tuple of LinkageNode
         The tree, parents before children.
     assemblies : tuple of LinkageAssembly
+    dead_ends : int
+        Branches of the tree that end at a group without a real assembly.
     count : int
     """
 
@@ -203,6 +207,7 @@ class LinkageAssemblies(Report):
     groups: tuple[LinkageGroup, ...]
     nodes: tuple[LinkageNode, ...]
     assemblies: tuple[LinkageAssembly, ...]
+    dead_ends: int
     count: int
 
     def __len__(self) -> int:

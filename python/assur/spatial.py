@@ -213,24 +213,34 @@ class HanaVelocity(Report):
 
 @dataclass(frozen=True, eq=False)
 class Arc:
-    """A piece of boundary: a ``"circle"`` arc or a ``"line"``, and the limit that is active on it."""
+    """A piece of boundary.
+
+    Attributes
+    ----------
+    curve : str
+        ``"line"``, ``"circle"``, or one of the curves on which legs 1 and 2 end level or over all orientations.
+    start, end : ndarray, shape (2,)
+    length : float
+    active : tuple of str
+        The limits reached on it.
+    center, radius, start_angle, end_angle
+        Of a circle.
+    height, L, factors
+        Of the other curves: ``(z - height)**2 = (a0 + a1 l) (b0 + b1 l)`` with ``l = sqrt(L**2 - y**2)``.
+    """
 
     curve: str
     start: FloatArray
     end: FloatArray
+    length: float
+    active: tuple[str, ...]
     center: FloatArray | None
     radius: float | None
     start_angle: float | None
     end_angle: float | None
-    active: tuple[str, ...]
-
-    def points(self, n: int = 64) -> NDArray[np.float64]:
-        """``n`` points along the arc, ends included; shape ``(n, 2)``."""
-        share = np.linspace(0.0, 1.0, n)[:, np.newaxis]
-        if self.center is None or self.radius is None or self.start_angle is None or self.end_angle is None:
-            return self.start + share * (self.end - self.start)
-        angle = self.start_angle + share * (self.end_angle - self.start_angle)
-        return self.center + self.radius * np.hstack([np.cos(angle), np.sin(angle)])
+    height: float | None
+    L: float | None
+    factors: FloatArray | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -254,6 +264,12 @@ class ArcRegion(Report):
     components: int
     holes: int
     loops: tuple[ArcLoop, ...]
+
+    def outlines(self, points: int = 64) -> list[list[NDArray[np.float64]]]:
+        """``points`` points along each piece of each loop, ends included; each of shape ``(points, 2)``."""
+        robot, question = self._origin
+        loops = robot._model.outlines(*question, points)
+        return [[np.asarray(piece).reshape(-1, 2) for piece in loop] for loop in loops]
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draws the region; returns the axes, shows nothing."""
@@ -418,12 +434,34 @@ class Hana(_Spatial):
         )
         return result(HanaVelocity, answer, self)
 
-    def workspace(self, kind: str = "reachable", *, phi: float = 0.0, mode: str = "+++") -> ArcRegion:
-        """The places of the platform's centre: ``"constant"`` for the orientation ``phi``, or ``"reachable"`` over all."""
+    def workspace(
+        self,
+        kind: str = "reachable",
+        *,
+        phi: float = 0.0,
+        between: ArrayLike | None = None,
+        mode: str = "+++",
+    ) -> ArcRegion:
+        """The places of the platform's centre.
+
+        Parameters
+        ----------
+        kind : {"constant", "reachable"}
+            For the orientation ``phi``, or over a range of orientations.
+        phi : float
+            Of ``"constant"``, radians.
+        between : array_like, shape (2,), optional
+            Of ``"reachable"``: first and last orientation, counter-clockwise, radians; between the quarter turns without it.
+        mode : str
+            The working mode.
+        """
         if kind not in ("constant", "reachable"):
             raise InputError(f"kind: {kind!r} must be constant or reachable", field="kind", value=kind)
-        orientation = one_number("phi", phi) if kind == "constant" else None
-        return result(ArcRegion, self._model.workspace(orientation, mode), self)
+        constant = kind == "constant"
+        if constant and between is not None:
+            raise InputError("between: goes with the kind reachable", field="between", value=between)
+        question = (one_number("phi", phi) if constant else None, optional_vector("between", between, 2), mode)
+        return result(ArcRegion, self._model.workspace(*question), (self, question))
 
     def capability(
         self,
@@ -509,6 +547,7 @@ class TripodAssembly:
     multiplicity: int
     residual: float
     parallel_axes: tuple[int, ...]
+    proof: str
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -663,9 +702,9 @@ class Tripod(_Spatial):
         """Slider positions for a pose, and the limits that they violate."""
         return result(TripodWay, self._model.inverse(_tripod_pose(pose)), self)
 
-    def forward(self, inputs: ArrayLike) -> TripodAssemblies:
-        """Every assembly mode for six slider positions, leg by leg."""
-        return result(TripodAssemblies, self._model.forward(vector("inputs", inputs, 6)), self)
+    def forward(self, inputs: ArrayLike, *, certify: bool = False) -> TripodAssemblies:
+        """Every assembly mode for six slider positions, leg by leg; with ``certify`` counted exactly, over the integers."""
+        return result(TripodAssemblies, self._model.forward(vector("inputs", inputs, 6), bool(certify)), self)
 
     def velocity(
         self, pose: ArrayLike, *, rates: ArrayLike | None = None, accelerations: ArrayLike | None = None

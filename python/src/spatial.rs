@@ -8,7 +8,8 @@ use assur::exchange::{
     hana_velocity_json, hana_workspace_json, tilt_json, tripod_forward_json, tripod_inverse_json, tripod_velocity_json,
 };
 use assur::nalgebra::{Matrix3, Vector3, Vector6};
-use assur::{HanaMode, HanaPose, SpatialError, TripodError, TripodPose};
+use assur::plot::PosedRobot;
+use assur::{ArcRegion, HanaMode, HanaPose, SpatialError, TripodError, TripodPose, WorkspaceArc};
 use pyo3::prelude::*;
 
 use crate::answer::Answer;
@@ -39,6 +40,22 @@ pub struct HanaModel {
     file: Arc<HanaFile>,
 }
 
+impl HanaModel {
+    fn region(
+        &self,
+        phi: Option<f64>,
+        range: Option<[f64; 2]>,
+        signs: &str,
+    ) -> Result<(&'static str, ArcRegion), Refused> {
+        let (robot, mode) = (&self.file.robot, mode(signs)?);
+        Ok(match (phi, range) {
+            (Some(phi), _) => ("constant", robot.workspace(phi, mode).map_err(asked)?),
+            (None, Some(range)) => ("reachable", robot.reachable_between(mode, range).map_err(asked)?),
+            (None, None) => ("reachable", robot.reachable_workspace(mode).map_err(asked)?),
+        })
+    }
+}
+
 #[pymethods]
 impl HanaModel {
     #[staticmethod]
@@ -65,7 +82,11 @@ impl HanaModel {
             let pose = HanaPose::new(pose[0], pose[1], pose[2]);
             let answer = robot.inverse(&pose).map_err(asked)?;
             let mixed = robot.mixed_singularities(pose.y, pose.z).map_err(asked)?;
-            Ok::<_, Refused>(Answer::plain(hana_inverse_json(&answer, &mixed, robot.mixed_reach())))
+            let (json, file) = (hana_inverse_json(&answer, &mixed, robot.mixed_reach()), self.file.clone());
+            Ok::<_, Refused>(Answer::drawn(json, move || {
+                let way = |way: &assur::HanaWay| PosedRobot { caption: way.mode.to_string(), pose, inputs: way.inputs };
+                assur::plot::draw_hana_poses(&file.robot, &answer.modes.iter().map(way).collect::<Vec<_>>())
+            }))
         })?)
     }
 
@@ -74,7 +95,15 @@ impl HanaModel {
             finite("inputs", &inputs)?;
             let robot = &self.file.robot;
             let answer = robot.forward(&inputs).map_err(asked)?;
-            Ok::<_, Refused>(Answer::plain(hana_forward_json(&answer, &robot.violations(&inputs))))
+            let (json, file) = (hana_forward_json(&answer, &robot.violations(&inputs)), self.file.clone());
+            Ok::<_, Refused>(Answer::drawn(json, move || {
+                let posed = |(number, mode): (usize, &assur::HanaAssembly)| PosedRobot {
+                    caption: format!("{number}: {}", mode.mode),
+                    pose: mode.pose,
+                    inputs,
+                };
+                assur::plot::draw_hana_poses(&file.robot, &(1..).zip(&answer.modes).map(posed).collect::<Vec<_>>())
+            }))
         })?)
     }
 
@@ -98,19 +127,33 @@ impl HanaModel {
         })?)
     }
 
-    /// The places of the platform's centre: for an orientation, or reachable over all.
-    #[pyo3(signature = (phi, signs))]
-    fn workspace(&self, py: Python<'_>, phi: Option<f64>, signs: &str) -> PyResult<Answer> {
+    /// The places of the platform's centre: for an orientation, or reachable over a range of them.
+    #[pyo3(signature = (phi, range, signs))]
+    fn workspace(&self, py: Python<'_>, phi: Option<f64>, range: Option<[f64; 2]>, signs: &str) -> PyResult<Answer> {
         Ok(py.detach(|| {
-            let (robot, mode) = (&self.file.robot, mode(signs)?);
-            let (kind, region) = match phi {
-                Some(phi) => ("constant", robot.workspace(phi, mode).map_err(asked)?),
-                None => ("reachable", robot.reachable_workspace(mode).map_err(asked)?),
-            };
+            let (kind, region) = self.region(phi, range, signs)?;
             let (json, file) = (hana_workspace_json(kind, &region), self.file.clone());
             Ok::<_, Refused>(Answer::drawn(json, move || {
                 assur::plot::draw_hana(&file.robot.name, &[(kind.to_owned(), &region)], None)
             }))
+        })?)
+    }
+
+    /// Points along the pieces of the boundary of a workspace, flat: loops of pieces.
+    #[pyo3(signature = (phi, range, signs, points))]
+    fn outlines(
+        &self,
+        py: Python<'_>,
+        phi: Option<f64>,
+        range: Option<[f64; 2]>,
+        signs: &str,
+        points: usize,
+    ) -> PyResult<Vec<Vec<Vec<f64>>>> {
+        Ok(py.detach(|| {
+            let (_, region) = self.region(phi, range, signs)?;
+            let piece = |arc: &WorkspaceArc| arc.points(points).into_iter().flatten().collect();
+            let outline = |(_, arcs): &(f64, Vec<WorkspaceArc>)| arcs.iter().map(piece).collect();
+            Ok::<_, Refused>(region.loops.iter().map(outline).collect())
         })?)
     }
 
@@ -180,15 +223,27 @@ impl TripodModel {
             let inputs = robot.inverse(&pose).map_err(asked)?;
             let angles = robot.plane_angles(&pose).map_err(asked)?;
             let violations = robot.violations(&pose, &inputs).map_err(asked)?;
-            Ok::<_, Refused>(Answer::plain(tripod_inverse_json(&pose, &inputs, &angles, &violations)))
+            let (json, file) = (tripod_inverse_json(&pose, &inputs, &angles, &violations), self.file.clone());
+            Ok::<_, Refused>(Answer::drawn(json, move || {
+                assur::plot::draw_tripod_poses(&file.robot, &[PosedRobot { caption: String::new(), pose, inputs }])
+            }))
         })?)
     }
 
-    fn forward(&self, py: Python<'_>, inputs: [f64; 6]) -> PyResult<Answer> {
+    fn forward(&self, py: Python<'_>, inputs: [f64; 6], certify: bool) -> PyResult<Answer> {
         Ok(py.detach(|| {
             finite("inputs", &inputs)?;
-            let answer = self.file.robot.forward(&inputs).map_err(asked)?;
-            Ok::<_, Refused>(Answer::plain(tripod_forward_json(&answer)))
+            let robot = &self.file.robot;
+            let answer = if certify { robot.certify(&inputs) } else { robot.forward(&inputs) }.map_err(asked)?;
+            let (json, file) = (tripod_forward_json(&answer), self.file.clone());
+            Ok::<_, Refused>(Answer::drawn(json, move || {
+                let posed = |(number, mode): (usize, &assur::TripodAssembly)| PosedRobot {
+                    caption: format!("mode {number}"),
+                    pose: mode.pose,
+                    inputs,
+                };
+                assur::plot::draw_tripod_poses(&file.robot, &(1..).zip(&answer.modes).map(posed).collect::<Vec<_>>())
+            }))
         })?)
     }
 

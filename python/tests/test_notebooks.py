@@ -24,4 +24,4 @@ def test_notebooks_run(path: Path, tmp_path: Path) -> None:
 
 
 def test_there_are_notebooks() -> None:
-    assert len(list(NOTEBOOKS.glob("*.ipynb"))) >= 4
+    assert len(list(NOTEBOOKS.glob("*.ipynb"))) >= 5

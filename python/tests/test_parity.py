@@ -149,6 +149,9 @@ def test_hana(cli: Cli) -> None:
     options = ["--rates=1,0,0", "--accelerations=0,1,0", "--json"]
     assert found.to_json() == cli("hana", "velocity", file, "--pose=-2,-12,20", *options)
     assert robot.workspace().to_json() == cli("hana", "workspace", file, "reachable", "--json")
+    between = robot.workspace(between=[math.radians(-10.0), math.radians(40.0)])
+    options = ["reachable", "--from=-10", "--to=40", "--json"]
+    assert between.to_json() == cli("hana", "workspace", file, *options)
     constant = robot.workspace("constant", phi=math.radians(20.0))
     assert constant.to_json() == cli("hana", "workspace", file, "constant", "--phi=20", "--json")
     tilts = robot.capability([-2, -12], strokes=[1, 2, 3])
@@ -166,6 +169,9 @@ def test_tripod(cli: Cli) -> None:
     assert found.to_json() == cli("tripod", "inverse", file, asked, "--json")
     assert robot.forward(found.inputs).to_json() == cli(
         "tripod", "forward", file, f"--inputs={joined(found.inputs)}", "--json"
+    )
+    assert robot.forward(found.inputs, certify=True).to_json() == cli(
+        "tripod", "forward", file, f"--inputs={joined(found.inputs)}", "--certify", "--json"
     )
     moved = robot.velocity(pose, rates=[1, 0, 0, 0, 0, 0.5])
     assert moved.to_json() == cli("tripod", "velocity", file, asked, "--rates=1,0,0,0,0,0.5", "--json")

@@ -22,6 +22,7 @@ from .conftest import EXAMPLES, MODELS, in_radians
 ROBOT = assur.Manipulator.from_file(EXAMPLES / "3-rpr.toml")
 INPUTS = [14.98, 15.38, 12.0]
 HANA = assur.Hana.from_file(EXAMPLES / "hana.toml")
+ARM = assur.Manipulator.from_file(EXAMPLES / "workspaces" / "table1-1a.toml")
 TRIPOD = assur.Tripod.from_file(EXAMPLES / "tripod-cartesian.toml")
 
 
@@ -46,6 +47,8 @@ def answers() -> list[Report]:
         HANA.forward([1, -0.5, 0.3]),
         HANA.velocity([-2, -12, 0.3], rates=[1, 0, 0]),
         HANA.workspace(),
+        ARM.workspace(),
+        ARM.workspace("inclusive", lower=0.0, upper=1.0),
         HANA.capability([-2, -12], cells=8, strokes=[1, 2]),
         TRIPOD.inverse([200, 260, 240, 0.1, 0.05, -0.03]),
         TRIPOD.forward([240, 254, 188, 164, 92, 47]),

@@ -42,6 +42,7 @@ pub struct WorkspaceReport {
     /// The area's derivatives by numbers of the design, angles in radians.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub gradient: BTreeMap<String, f64>,
+    #[cfg(feature = "optimise")]
     #[serde(skip_serializing_if = "Option::is_none")]
     optimum: Option<OptimumReport>,
 }
@@ -63,6 +64,7 @@ struct SliceReport {
 }
 
 /// The best design found, angles in radians.
+#[cfg(feature = "optimise")]
 #[derive(Clone, Debug, PartialEq, Serialize)]
 struct OptimumReport {
     values: BTreeMap<String, f64>,
@@ -179,6 +181,7 @@ impl WorkspaceReport {
             overlays: Vec::new(),
             stack: None,
             gradient: BTreeMap::new(),
+            #[cfg(feature = "optimise")]
             optimum: None,
         }
     }

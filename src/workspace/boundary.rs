@@ -47,7 +47,7 @@ pub struct BoundaryArc {
 pub struct ArcIntegrals {
     /// `½∮ (x dy - y dx)` from the origin chosen.
     pub area: f64,
-    /// `∮ ½x² dy`, `-∮ ½y² dx` from the origin chosen.
+    /// `⅓∮ x (x dy - y dx)`, `⅓∮ y (x dy - y dx)` from the origin chosen.
     pub moment: [f64; 2],
     /// Length.
     pub length: f64,

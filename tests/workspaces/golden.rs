@@ -2,7 +2,7 @@
 
 use assur::exchange::ModelFile;
 use assur::workspace::{WorkspaceKind, WorkspaceModes};
-use assur::{Leg, Manipulator};
+use assur::{Leg, Manipulator, Pose};
 use serde_json::Value;
 
 use crate::membership::kind_of;
@@ -67,8 +67,8 @@ fn check(kinds: &[&str]) {
             if member.inside != inside && number(&point[3]).abs() > 1e-9 {
                 wrong.push(format!("{name}: {point} found {}", member.inside));
             }
-            let margin_wrong = (member.margin >= 0.0) != member.inside || !member.margin.is_finite();
-            if margin_wrong && !(member.margin.abs() <= 1e-9) {
+            let contradicts = (member.margin >= 0.0) != member.inside && member.margin.abs() > 1e-9;
+            if contradicts || !member.margin.is_finite() {
                 wrong.push(format!("{name}: {point} inside {} with margin {}", member.inside, member.margin));
             }
         }
@@ -136,6 +136,39 @@ fn slider_designs_have_the_published_areas() {
         }
     }
     assert!(asked >= 50, "{asked}");
+}
+
+#[test]
+fn assemblies_are_the_published_ones() {
+    let data = golden();
+    let robot = golden_manipulator(&data, "M1A");
+    let reach = robot.reach(&WorkspaceModes::Both).expect("is covered");
+    let pose = |degrees: f64| Pose::new(7.0, 20.0, f64::to_radians(degrees));
+    // The paper's figure 14 has two regions here; the two poses are joined by a motion.
+    for degrees in [270.0, 225.0] {
+        let area = reach.assembly(&pose(degrees)).expect("is allowed").region.area;
+        assert!((area - 315.848_147).abs() < 1e-4, "{degrees}: {area}");
+    }
+    let data_robot = golden_manipulator(&data, "M1_sep1");
+    let reach = data_robot.reach(&WorkspaceModes::Both).expect("is covered");
+    for (sheet, sign) in [("psi1_in_(0,pi)", 1.0), ("psi1_in_(pi,2pi)", -1.0)] {
+        let entry = &data["assemblies"]["M1_sep1"][sheet];
+        let (area, error) = (number(&entry["area"]), number(&entry["err"]));
+        let start = entry["points"].as_array().expect("a list").iter().find_map(|point| {
+            let at = [number(&point[0]), number(&point[1])];
+            let towards = at[1].atan2(at[0]);
+            let set = reach.orientations(at.into());
+            set.intervals().iter().find_map(|&[from, to]| {
+                let phi = (from + to) / 2.0;
+                // psi1 = theta - arg(C - A1).
+                ((phi - towards).sin() * sign > 0.0 && to - from > 1e-3).then(|| Pose::new(at[0], at[1], phi))
+            })
+        });
+        let found = reach.assembly(&start.expect("a pose of this sheet")).expect("is allowed").region.area;
+        assert!((found - area).abs() < 3.0 * error, "{sheet}: {found} against {area}");
+    }
+    let error = reach.assembly(&Pose::new(1e3, 0.0, 0.0)).unwrap_err().to_string();
+    assert!(error.contains("leg 1"), "{error}");
 }
 
 #[test]

@@ -3,6 +3,7 @@
 //! `ASSUR_TEST_SCALE` multiplies how many random manipulators are asked.
 
 mod design;
+mod faces;
 mod golden;
 mod membership;
 mod models;

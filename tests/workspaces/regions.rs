@@ -73,8 +73,13 @@ impl Polygons {
     }
 }
 
+/// Whether a number is greater than a bound, or none at all.
+fn exceeds(value: f64, bound: f64) -> bool {
+    value.is_nan() || value > bound
+}
+
 /// What is wrong with a region; empty where nothing is.
-pub fn faults(case: &Case, oracle: &Oracle, question: Question, region: &Region, r: &mut Random) -> Vec<String> {
+pub fn faults(oracle: &Oracle, question: Question, region: &Region, r: &mut Random) -> Vec<String> {
     let mut out = Vec::new();
     let size = oracle.size;
     let certainly = |at: [f64; 2], inside: bool| {
@@ -91,13 +96,13 @@ pub fn faults(case: &Case, oracle: &Oracle, question: Question, region: &Region,
     for (number, one) in region.loops.iter().enumerate() {
         for (arc, next) in one.arcs.iter().zip(one.arcs.iter().cycle().skip(1)) {
             let gap = (arc.end[0] - next.start[0]).hypot(arc.end[1] - next.start[1]);
-            if !(gap <= NEAR * size) {
+            if exceeds(gap, NEAR * size) {
                 out.push(format!("loop {number} has a gap of {gap:e} at {:?}", arc.end));
             }
             let ends = arc.points(2);
             for (claimed, drawn) in [arc.start, arc.end].iter().zip([ends[0], ends[ends.len() - 1]]) {
                 let off = (claimed[0] - drawn[0]).hypot(claimed[1] - drawn[1]);
-                if !(off <= 10.0 * NEAR * size) {
+                if exceeds(off, 10.0 * NEAR * size) {
                     out.push(format!(
                         "loop {number}: an arc ends {off:e} from where it says, {claimed:?} {:?}",
                         arc.active
@@ -112,7 +117,7 @@ pub fn faults(case: &Case, oracle: &Oracle, question: Question, region: &Region,
     let polygons = Polygons::of(region);
     let area = polygons.area();
     let room = 1e-4 * region.perimeter * size.min(region.perimeter) + 1e-9 * size * size;
-    if !((area - region.area).abs() <= room) {
+    if exceeds((area - region.area).abs(), room) {
         out.push(format!("area {} but its polygons have {area}", region.area));
     }
     if let (Some(bbox), false) = (region.bbox, region.loops.is_empty()) {
@@ -188,7 +193,6 @@ pub fn faults(case: &Case, oracle: &Oracle, question: Question, region: &Region,
             out.push(format!("isolated {at:?} does not belong to it"));
         }
     }
-    let _ = case;
     out
 }
 
@@ -223,7 +227,7 @@ fn check(kinds: std::ops::Range<usize>, cases: u64) {
                 }
             };
             empty += usize::from(workspace.region.loops.is_empty());
-            let faults = faults(&case, &oracle, question, &workspace.region, &mut r);
+            let faults = faults(&oracle, question, &workspace.region, &mut r);
             if !faults.is_empty() {
                 let faults = faults[..faults.len().min(4)].join("\n  ");
                 wrong.push(format!(

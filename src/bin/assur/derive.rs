@@ -27,6 +27,8 @@ mod degree_table;
 mod dixon_pencils;
 #[path = "../../../derivations/filter_bound.rs"]
 mod filter_bound;
+#[path = "../../../derivations/fold_rule.rs"]
+mod fold_rule;
 #[path = "../../../derivations/hana_forward.rs"]
 mod hana_forward;
 #[path = "../../../derivations/joint_ranges.rs"]
@@ -51,7 +53,7 @@ mod tripod_orientation;
 mod velocity_row;
 
 /// Every derivation is a program of its own as well; here only its text is used.
-const _: [fn(); 19] = [
+const _: [fn(); 20] = [
     acceleration_term::main,
     cartesian_robot::main,
     charts::main,
@@ -60,6 +62,7 @@ const _: [fn(); 19] = [
     degree_table::main,
     dixon_pencils::main,
     filter_bound::main,
+    fold_rule::main,
     hana_forward::main,
     joint_ranges::main,
     leg_reductions::main,
@@ -139,6 +142,11 @@ const DERIVATIONS: &[Derivation] = &[
         name: "dixon_pencils",
         claim: "larger groups as generalised eigenproblems; the triad's sextic is the 6x6 case",
         document: dixon_pencils::document,
+    },
+    Derivation {
+        name: "fold_rule",
+        claim: "which curves can bound a maximal or inclusive workspace, and on which side",
+        document: fold_rule::document,
     },
     Derivation {
         name: "ring_reach",

@@ -11,7 +11,7 @@ use assur::plot::{WorkspaceLayer, draw_workspaces};
 use assur::workspace::{
     DesignChoice, Isolated, Membership, Region, StrokeVoid, Workspace, WorkspaceError, WorkspaceKind, WorkspaceModes,
 };
-use assur::{DesignKey, Manipulator};
+use assur::{DesignKey, Manipulator, Pose};
 use clap::{Args, ValueEnum};
 
 use crate::args::{Rows, Shown};
@@ -60,6 +60,9 @@ pub(crate) struct WorkspaceArgs {
     /// Tells of each point of a file (CSV with the header x,y, or .jsonl) whether it is inside, and its margin.
     #[arg(long, value_name = "FILE")]
     points: Option<PathBuf>,
+    /// Only what the assembly in this pose reaches without being taken apart (with maximal).
+    #[arg(long, value_name = "X,Y,PHI", value_delimiter = ',', allow_hyphen_values = true)]
+    assembly: Vec<f64>,
     /// Draws another workspace into the picture and lists it: constant:PHI, maximal, inclusive:A:B, total:A:B, dextrous; may be repeated.
     #[arg(long, value_name = "KIND")]
     overlay: Vec<String>,
@@ -113,7 +116,7 @@ fn kind_of(asked: &WorkspaceArgs, unit: AngleUnit, file: &Path) -> Result<Worksp
             Err(about(file, format!("{what}: {value} must be finite")))
         }
     };
-    let needs = |what: &str| about(file, format!("{what}"));
+    let needs = |what: &str| about(file, what);
     let range = || match (asked.from, asked.to) {
         (Some(from), Some(to)) => Ok(PhiRange::between(finite("from", from)?, finite("to", to)?)),
         _ => Err(needs("this kind needs --from and --to")),
@@ -148,7 +151,17 @@ pub(crate) fn workspace(asked: &WorkspaceArgs) -> Result<(), Failure> {
     let modes: WorkspaceModes = asked.mode.parse().map_err(failed)?;
     let reach = robot.reach(&modes).map_err(failed)?;
     let points = asked.points.as_deref().map(read_points).transpose()?.unwrap_or_default();
-    let workspace = reach.workspace(&kind).map_err(failed)?;
+    let assembly = match (&asked.assembly[..], asked.kind) {
+        ([], _) => None,
+        (&[x, y, phi], KindName::Maximal) => Some(Pose::new(x, y, unit.to_rad(phi))),
+        ([_, _, _], _) => return Err(about(file, "--assembly goes with the kind maximal")),
+        (values, _) => return Err(about(file, format!("assembly: {} values, must be 3 (x, y, phi)", values.len()))),
+    };
+    let workspace = match &assembly {
+        Some(pose) => reach.assembly(pose),
+        None => reach.workspace(&kind),
+    };
+    let workspace = workspace.map_err(failed)?;
     let overlays: Vec<(String, Workspace)> = asked
         .overlay
         .iter()
@@ -195,7 +208,7 @@ pub(crate) fn workspace(asked: &WorkspaceArgs) -> Result<(), Failure> {
     let found =
         if asked.optimise.is_empty() { None } else { Some(optimise(&model, file, &kind, &modes, &asked.optimise)?) };
     if asked.shown.json {
-        let mut report = WorkspaceReport::new(&workspace, &modes, None, &members);
+        let mut report = WorkspaceReport::new(&workspace, &modes, assembly.map(|pose| [pose.x, pose.y, pose.phi]), &members);
         report.overlays = overlays.iter().map(|(_, other)| WorkspaceReport::new(other, &modes, None, &[])).collect();
         if let Some(stack) = &stack {
             report = report.with_stack(stack);
@@ -209,7 +222,8 @@ pub(crate) fn workspace(asked: &WorkspaceArgs) -> Result<(), Failure> {
     }
     let mut text = String::new();
     heading(&mut text, &title(&model));
-    let what = format!("{} workspace", kind_name(&workspace.kind, unit));
+    let one = if assembly.is_some() { " of one assembly" } else { "" };
+    let what = format!("{} workspace{one}", kind_name(&workspace.kind, unit));
     line(&mut text, format_args!("{}, {what}, modes {modes}", robot.family()));
     measures(&mut text, &workspace);
     for (leg, void) in (1..).zip(robot.stroke_voids()) {

@@ -110,9 +110,11 @@ impl CouplerArc {
             for x in [node, -node] {
                 let (at, velocity) = self.at(middle + half * x);
                 let (p, w) = (at - origin, weight * half);
-                out.area += 0.5 * w * p.perp(&velocity);
-                out.moment[0] += 0.5 * w * p.x * p.x * velocity.y;
-                out.moment[1] -= 0.5 * w * p.y * p.y * velocity.x;
+                // Of the fan of triangles from the origin, as for lines and circles: only so do the shares of different arcs add up.
+                let fan = w * p.perp(&velocity);
+                out.area += 0.5 * fan;
+                out.moment[0] += p.x * fan / 3.0;
+                out.moment[1] += p.y * fan / 3.0;
                 out.length += w * velocity.norm();
             }
         }
