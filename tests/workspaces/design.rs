@@ -148,7 +148,7 @@ fn strokes_shorter_than_two_links_leave_a_lens() {
     let robot = golden_manipulator(&data, "PRR_lens");
     let voids = robot.stroke_voids();
     let Some(StrokeVoid::Lens { tips, area }) = voids[0] else { panic!("{voids:?}") };
-    assert!(tips.iter().all(|tip| (tip[0].abs()) < 1e-12), "{tips:?}");
+    assert!(tips.iter().all(|tip| tip[0].abs() < 1e-12), "{tips:?}");
     assert!(area > 0.0 && area < 0.1);
     assert_eq!(voids[1], Some(StrokeVoid::None));
     assert_eq!(golden_manipulator(&data, "M1A").stroke_voids(), [None; 3]);
