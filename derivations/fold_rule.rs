@@ -108,7 +108,7 @@ pub fn document() -> String {
                 &format!("{what}, {}: {} coupler arcs of {} in all", kind.name(), couplers.len(), arcs.len()),
                 held,
             );
-            page.holds("and all loops close", region.unclosed.is_empty());
+            page.equal("pieces not joined to a loop: none", &region.unclosed.len(), &0);
         }
     }
     page.finish()

@@ -131,10 +131,10 @@ pub use spatial::{
     ArcCircle, ArcRegion, Capability, CapabilityMap, CapabilityStop, CapabilitySupremum, CartesianRobot,
     CartesianSingular, Counted, DeterminantPoint, Hana, HanaAssemblies, HanaAssembly, HanaCapabilityError, HanaFamily,
     HanaMode, HanaPose, HanaSingularKind, HanaSingularity, HanaUnreachable, HanaVelocity, HanaViolation, HanaWay,
-    HanaWays, Hexapteron, LinkCurve, MixedReach, MixedSingularity, Orientations, PlaneConditions, Quadrupteron,
-    SpatialError, SpatialRemark, Tilt, TiltLimit, Tripod, TripodAssemblies, TripodAssembly, TripodDesign, TripodError,
-    TripodLeg, TripodPose, TripodReach, TripodSingularity, TripodStatus, TripodVelocity, Tripteron, WorkspaceArc,
-    WorkspaceCurve,
+    HanaWays, Hexapteron, LinkCurve, MixedReach, MixedSingularity, Multipteron, MultipteronError, MultipteronPoses,
+    Orientations, PlaneConditions, Quadrupteron, SpatialError, SpatialRemark, Tilt, TiltLimit, Tripod,
+    TripodAssemblies, TripodAssembly, TripodDesign, TripodError, TripodLeg, TripodPose, TripodReach, TripodSingularity,
+    TripodStatus, TripodVelocity, Tripteron, WorkspaceArc, WorkspaceCurve,
 };
 
 pub use plane::{AngleSet, PhiRange};

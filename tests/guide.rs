@@ -68,8 +68,9 @@ fn every_command_prints_what_stands_under_it() {
     for page in pages() {
         for step in steps(&fs::read_to_string(&page).expect("is readable")) {
             count += 1;
-            let ran = Command::new("bash").args(["-c", &format!("exec 2>&1; {}", step.command)]);
-            let ran = ran.current_dir(root()).env("PATH", &path).env("NO_COLOR", "1").output().expect("bash runs");
+            let mut shell = Command::new("bash");
+            shell.args(["-c", &format!("exec 2>&1; {}", step.command)]);
+            let ran = shell.current_dir(root()).env("PATH", &path).env("NO_COLOR", "1").output().expect("bash runs");
             let printed = String::from_utf8_lossy(&ran.stdout).into_owned();
             let lines: Vec<&str> = printed.lines().collect();
             if !fits(&step.expected, &lines) {

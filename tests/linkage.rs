@@ -318,17 +318,13 @@ fn bad_linkages_are_refused_by_name() {
     );
     assert_eq!(
         with(&|j| j[0].driven = false),
-        "links 1, 2, 3: still movable with the drivers held, mobility 1; another driven joint is needed"
-            .replace("1, 2, 3", "1, 2, 3, 4, 5")
+        "links 1, 2, 3, 4, 5: still movable with the drivers held, mobility 1; another driven joint is needed"
     );
     assert_eq!(
         with(&|j| j.push(LinkageJoint::revolute([5, 1], v(2.0, 2.0)))),
-        "links 4, 5: overdetermined with the drivers held, mobility -2"
+        "links 5: overdetermined with the drivers held, mobility -1"
     );
-    assert_eq!(
-        with(&|j| j[6] = j[6].driven()),
-        "links 2, 3: overdetermined with the drivers held, mobility -1".replace("2, 3", "4")
-    );
+    assert_eq!(with(&|j| j[6] = j[6].driven()), "links 4: overdetermined with the drivers held, mobility -1");
     // A wedge: three sliders in a loop.
     let wedge = [
         LinkageJoint::prismatic([0, 1], v(0.0, 0.0), v(1.0, 0.0)).driven(),
@@ -336,9 +332,13 @@ fn bad_linkages_are_refused_by_name() {
         LinkageJoint::prismatic([2, 0], v(2.0, 2.0), v(0.0, 1.0)),
     ];
     assert!(refused(3, &wedge).contains("sliders alone close a loop"));
+    // Two links between crank and lever, three sliders: both have their orientation from either side.
+    let mut random = Random::new(2);
+    let mut steered = shaper()[..4].to_vec();
+    steered.extend([[1, 4], [4, 5], [5, 3]].map(|links| joint(links, true, &mut random)));
+    assert!(refused(6, &steered).starts_with("links 4, 5: sliders alone close a loop"), "{}", refused(6, &steered));
     // A seven-link group in which one joint slides.
     let edges = [[0, 4], [1, 4], [2, 5], [3, 5], [4, 5], [0, 6], [1, 6], [2, 6], [3, 6]];
-    let mut random = Random::new(2);
     let large: Vec<LinkageJoint> =
         edges.iter().enumerate().map(|(k, &links)| joint(links, k == 4, &mut random)).collect();
     assert_eq!(

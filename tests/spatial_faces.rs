@@ -205,8 +205,45 @@ fn robots_are_drawn_and_checked_and_determinants_are_curves() {
 }
 
 #[test]
+fn multipterons_from_files() {
+    for (file, pose, count) in [
+        ("tripteron.toml", "--pose=1,2,3", 1),
+        ("quadrupteron.toml", "--pose=0.2,-0.1,0.4,0,0,30", 2),
+        ("hexapteron.toml", "--pose=20,-10,30,5,0,10", 8),
+    ] {
+        let file = model(file);
+        let inverse = json(&["multipteron", "inverse", &file, pose, "--json"]);
+        let inputs: Vec<String> =
+            inverse["inputs"].as_array().expect("a list").iter().map(ToString::to_string).collect();
+        let inputs = format!("--inputs={}", inputs.join(","));
+        let forward = json(&["multipteron", "forward", &file, &inputs, "--json"]);
+        let modes = forward["modes"].as_array().expect("modes");
+        assert_eq!((modes.len(), forward["account"]["real"].as_u64()), (count, Some(count as u64)), "{file}");
+        let place = |value: &serde_json::Value| [0, 1, 2].map(|k| number(&value[k]));
+        let wanted = place(&inverse["position"]);
+        assert!(
+            modes
+                .iter()
+                .any(|mode| { place(&mode["pose"]["position"]).iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-9) })
+        );
+        assert!(text(&["multipteron", "forward", &file, &inputs]).contains("degree"));
+        assert_eq!(json(&["check", &file, "--json"])["degree_bound"].as_u64(), Some(count as u64));
+    }
+    let path = folder("multipterons").join("five.toml");
+    std::fs::write(&path, "schema = \"assur/multipteron/1\"\nkind = \"pentapteron\"\ndirections = []")
+        .expect("is written");
+    let path = path.to_str().expect("plain");
+    assert!(refused(&["multipteron", "forward", path, "--inputs=1,2,3,4,5"]).contains("208 real solutions"));
+    let tripteron = model("tripteron.toml");
+    assert!(refused(&["multipteron", "inverse", &tripteron, "--pose=1,2,3,0.1,0,0"]).contains("cannot turn"));
+    assert!(refused(&["multipteron", "forward", &tripteron, "--inputs=1,2"]).contains("inputs: 2 given, must be 3"));
+}
+
+#[test]
 fn models_to_start_from_are_sound() {
-    for (name, command) in [("hana", "hana"), ("tripod", "tripod")] {
+    for (name, command) in
+        [("hana", "hana"), ("tripod", "tripod"), ("tripod-inclined", "tripod"), ("tripod-upright", "tripod")]
+    {
         let path = folder("new-spatial").join(format!("{name}.toml"));
         let path = path.to_str().expect("plain");
         assert!(run(&["new", name, "--output", path]).status.success());

@@ -2,6 +2,8 @@
 
 /** How long to wait before each new attempt, in milliseconds; the last one is repeated. */
 const PAUSES = [200, 500, 1000, 2000, 5000];
+/** The questions of a drag, whose answers are waited for; only their times count. */
+const QUICK = new Set(["move", "four_bar", "truss"]);
 /** Answers whose times are kept, for the statistics. */
 const TIMES_KEPT = 600;
 
@@ -16,7 +18,7 @@ export class Connection {
     this.onState = onState;
     /** @type {WebSocket | null} */
     this.socket = null;
-    /** @type {Map<number, { resolve: (answer: any) => void, reject: (error: Error) => void, asked: number }>} */
+    /** @type {Map<number, { resolve: (answer: any) => void, reject: (error: Error) => void, asked: number, quick: boolean }>} */
     this.waiting = new Map();
     this.next = 1;
     this.attempts = 0;
@@ -63,7 +65,7 @@ export class Connection {
       question.reject(new Refused(message.error));
       return;
     }
-    this.times.push(performance.now() - question.asked);
+    if (question.quick) this.times.push(performance.now() - question.asked);
     if (this.times.length > TIMES_KEPT) this.times.shift();
     question.resolve(message.answer);
   }
@@ -86,7 +88,7 @@ export class Connection {
     const text = JSON.stringify({ id, ask: kind, ...question });
     if (text.length > this.largest) return Promise.reject(new Refused(`that is too large: ${text.length} of at most ${this.largest} bytes`));
     return new Promise((resolve, reject) => {
-      this.waiting.set(id, { resolve, reject, asked: performance.now() });
+      this.waiting.set(id, { resolve, reject, asked: performance.now(), quick: QUICK.has(kind) });
       socket.send(text);
     });
   }

@@ -62,7 +62,7 @@ export class FourBarPage {
       this.state.file = answer.file;
       this.state.place = answer.place;
       if (fit) this.fit();
-      this.draw();
+      this.app.schedule();
       this.app.say("");
       if (book) this.app.book();
     } catch (error) {

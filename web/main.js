@@ -16,6 +16,9 @@ import { FIRST as FIRST_TRUSS, TrussPage } from "./truss.js";
  * @typedef {{ kind: "manipulator", model: import("./types.js").Model, inputs: number[] } | { kind: "four_bar", file: object } | { kind: "truss", file: object }} Opened
  */
 
+/** The time of answers is shown no more often than this, in milliseconds. */
+const TIMING_PAUSE = 250;
+
 export class App {
   constructor() {
     this.stage = new Stage(byId("stage"), {
@@ -24,13 +27,15 @@ export class App {
       drop: () => this.page?.drop(),
       take: (number) => this.page?.hold(number),
     });
-    this.stage.redraw = () => this.page?.draw();
+    this.stage.redraw = () => this.schedule();
+    this.scheduled = false;
     this.history = new History();
     /** @type {Page | null} */
     this.page = null;
     /** @type {Map<string, State>} The last state of each page. */
     this.states = new Map();
     this.title = "";
+    this.timed = 0;
     this.connection = new Connection((state) => this.connected(state));
     this.listen();
     this.start();
@@ -60,6 +65,16 @@ export class App {
     const own = JSON.parse(JSON.stringify(state));
     this.page = own.page === "manipulator" ? new ManipulatorPage(this, own) : own.page === "four_bar" ? new FourBarPage(this, own) : new TrussPage(this, own);
     await this.page.begin(pick, fit);
+  }
+
+  /** Draws the page with the next frame: answers may come faster than pictures. */
+  schedule() {
+    if (this.scheduled) return;
+    this.scheduled = true;
+    requestAnimationFrame(() => {
+      this.scheduled = false;
+      this.page?.draw();
+    });
   }
 
   /** Books the page's state, for undo and for the address. */
@@ -107,6 +122,9 @@ export class App {
   say(text) {
     const line = byId("message");
     if (line.textContent !== text) line.textContent = text;
+    const now = performance.now();
+    if (now - this.timed < TIMING_PAUSE) return;
+    this.timed = now;
     const timing = this.connection.timing();
     if (timing) byId("timing").textContent = `${timing.last.toFixed(1)} ms, 95 % below ${timing.p95.toFixed(1)} ms`;
   }
@@ -254,7 +272,7 @@ export class App {
 
   fit() {
     this.page?.fit();
-    this.page?.draw();
+    this.schedule();
   }
 
   /** @param {KeyboardEvent} event */

@@ -23,6 +23,9 @@ const CELLS = { still: 160, moving: 48 };
 /** Slow questions while something is pulled come no more often than this, in milliseconds. */
 const SLOW_PAUSE = 180;
 
+/** The panels while something is pulled change no more often than this, in milliseconds. */
+const PANEL_PAUSE = 80;
+
 const HANDLES = /** @type {Record<string, string>} */ ({
   base: "base point of leg", base_axis: "slider direction of leg", platform: "platform point of leg", platform_axis: "platform slider of leg", pose: "platform", turn: "turn the platform",
 });
@@ -61,6 +64,7 @@ export class ManipulatorPage {
     this.planeKey = "";
     this.pulling = false;
     this.lastSlow = 0;
+    this.lastPanels = 0;
     this.moves = latest((/** @type {{ pull: object | null, pick?: boolean, fit?: boolean, book?: boolean }} */ wish) => this.move(wish));
     this.slow = latest((/** @type {null} */ _) => this.askSlowly());
     this.inputs = html("div");
@@ -132,7 +136,7 @@ export class ManipulatorPage {
       const answer = await this.app.connection.ask("move", { model, inputs, mode, pick, pull, workspace: wish });
       this.take(answer, mode !== null, tones);
       if (fit) this.fit();
-      this.draw();
+      this.app.schedule();
       this.app.say("");
       this.slow.push(null);
       if (book) this.app.book();
@@ -194,6 +198,7 @@ export class ManipulatorPage {
     this.pulling = false;
     await this.moves.settled();
     if (this.answer && this.answer.current === null) this.anchor = { model: this.state.model, inputs: this.state.inputs, mode: null, tones: this.tones };
+    this.app.schedule();
     this.app.book();
     this.slow.push(null);
   }
@@ -219,7 +224,7 @@ export class ManipulatorPage {
       if (this.state.loci && mode && lociKey !== this.lociKey) {
         this.loci = await this.app.connection.ask("loci", { model, phi: mode.pose[2], signs: mode.signs });
         this.lociKey = lociKey;
-        this.draw();
+        this.app.schedule();
       }
     } catch (error) {
       this.app.fail(error);
@@ -255,7 +260,12 @@ export class ManipulatorPage {
       const name = body ? /** @type {Point} */ ([0, 1].map((axis) => body.at.reduce((sum, p) => sum + p[axis], 0) / body.at.length)) : null;
       return { tone: this.tones[k] % TONES, label: String(k + 1), ghost: k !== answer.current, marks, name };
     });
-    return all;
+    if (all.length > 0) return all;
+    // Without a mode the ground is what is left to take hold of.
+    const bases = answer.handles.filter(({ handle }) => handle === "base");
+    const look = { actuated: false, violated: false };
+    const marks = bases.flatMap(({ at, leg }) => /** @type {import("./types.js").Mark[]} */ ([{ mark: "ground", at: [at] }, { mark: "pin", at: [at], look }, { mark: "number", at: [at], leg: (leg ?? 0) + 1 }]));
+    return [{ tone: 0, label: "", ghost: false, marks, name: null }];
   }
 
   draw() {
@@ -281,6 +291,10 @@ export class ManipulatorPage {
     })));
     const { account } = answer.report;
     app.caption(answer.model.name || answer.family, `${answer.family}, ${count(answer)}, degree ${account.degree}`);
+    // Numbers that change sixty times a second cannot be read.
+    const now = performance.now();
+    if (this.pulling && now - this.lastPanels < PANEL_PAUSE) return;
+    this.lastPanels = now;
     this.drawPanels(answer);
   }
 
@@ -305,7 +319,7 @@ export class ManipulatorPage {
     this.lociButton.setAttribute("aria-pressed", String(this.state.loci));
     this.lociButton.textContent = this.state.loci ? "hide" : "show";
     this.slow.push(null);
-    this.draw();
+    this.app.schedule();
     this.app.book();
   }
 
@@ -328,7 +342,7 @@ export class ManipulatorPage {
       slider.max = String(high);
       slider.step = String((high - low) / 2000);
       if (document.activeElement !== slider) slider.value = String(shown);
-      if (document.activeElement !== field) field.value = String(Number(shown.toPrecision(8)));
+      if (document.activeElement !== field) field.value = String(Number(shown.toPrecision(7)));
       row.querySelector("span")?.replaceChildren(`q${k + 1}  ${actuator.angle ? "turn" : "slide"}`);
     });
     const { account, modes } = answer.report;

@@ -51,7 +51,7 @@ export class TrussPage {
       this.answer = answer;
       this.state.file = answer.file;
       if (fit) this.fit();
-      this.draw();
+      this.app.schedule();
       this.app.say("");
       if (book) this.app.book();
     } catch (error) {

@@ -8,7 +8,7 @@ use super::error::{FieldProblem, FileError};
 use super::questions::LociError;
 use crate::linkage::{CouplerError, GroupError, LinkageError, PinnedDyadError, TriadError, TrussError};
 use crate::manipulator::{DescriptionError, DesignError, KinematicsError, LockError, LocusError, PathError};
-use crate::spatial::{HanaCapabilityError, SpatialError, TripodError};
+use crate::spatial::{HanaCapabilityError, MultipteronError, SpatialError, TripodError};
 use crate::workspace::WorkspaceError;
 
 /// Where an error lies: file, row, leg, joint, field, and the value found there. Counted from 1.
@@ -98,6 +98,7 @@ impl From<&FileError> for ErrorPlace {
             FileError::Truss { file, error } => (file, error.into()),
             FileError::Spatial { file, error } => (file, error.into()),
             FileError::Triad { file, error } => (file, error.into()),
+            FileError::Multipteron { file, error } => (file, error.into()),
         };
         Self { file: Some(file.clone()), ..place }
     }
@@ -266,6 +267,21 @@ impl From<&TripodError> for ErrorPlace {
             E::ParallelAxes { leg } | E::ParallelRail { leg } => Self::leg(*leg).and_field("pose"),
             E::NoRotation { off } => Self::field("rotation").and_value(FoundValue::Number(*off)),
             E::Singular { .. } => Self::field("pose"),
+        }
+    }
+}
+
+impl From<&MultipteronError> for ErrorPlace {
+    fn from(error: &MultipteronError) -> Self {
+        use MultipteronError as E;
+        match error {
+            E::Number(error) => error.into(),
+            E::Pentapteron => Self::field("family"),
+            E::Unknown { name } => Self::field("family").and_value(FoundValue::Text(name.clone())),
+            E::NoDirection { what } => Self::field(what),
+            E::Coplanar => Self::field("directions"),
+            E::Turn { .. } => Self::field("pose"),
+            E::OnePoint { first, .. } => Self::leg(*first),
         }
     }
 }

@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::check::{CheckReport, RemarkReport};
 use super::error::FileError;
 use super::model::{ModelFile, read_text};
+use super::multipteron_file::MultipteronFile;
 use super::spatial_file::{HanaFile, TripodFile};
 use super::tree::Tree;
 use crate::spatial::SpatialRemark;
@@ -121,6 +122,20 @@ impl AnyCheck {
                     ),
                 ],
                 remarks: remarks(robot.remarks()),
+            }));
+        }
+        if says("assur/multipteron/") {
+            let MultipteronFile { name, robot, angle_unit } = MultipteronFile::parse(text, file)?;
+            return Ok(Self::Spatial(SpatialCheckReport {
+                schema: "assur/check/1",
+                name,
+                family: robot.name(),
+                angle_unit: angle_unit.name(),
+                degrees_of_freedom: robot.degrees_of_freedom(),
+                working_modes: 1,
+                degree_bound: robot.degree(),
+                numbers: Vec::new(),
+                remarks: Vec::new(),
             }));
         }
         ModelFile::parse(text, file).map(|model| Self::Planar(CheckReport::of(&model)))

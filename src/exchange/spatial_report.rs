@@ -11,7 +11,7 @@ use crate::spatial::{
     WorkspaceArc, WorkspaceCurve,
 };
 
-fn text(document: &Value) -> String {
+pub(super) fn text(document: &Value) -> String {
     format!("{document:#}\n")
 }
 
@@ -19,7 +19,7 @@ fn hana_pose(pose: &HanaPose) -> [f64; 3] {
     [pose.y, pose.z, pose.phi]
 }
 
-fn account(account: &Account) -> Value {
+pub(super) fn account(account: &Account) -> Value {
     json!({
         "degree": account.degree, "real": account.real, "complex": account.complex, "at_infinity": account.at_infinity,
         "rejected": account.rejected, "self_motion": account.self_motion, "undecided": account.undecided,
@@ -195,7 +195,7 @@ pub fn hana_capability_json(
     text(&document)
 }
 
-fn tripod_pose(pose: &TripodPose) -> Value {
+pub(super) fn tripod_pose(pose: &TripodPose) -> Value {
     json!({ "position": pose.position.as_slice(), "rotation": rows(pose.rotation.matrix()) })
 }
 

@@ -20,7 +20,8 @@ pub use hana::{
 pub use region::{ArcCircle, ArcRegion, WorkspaceArc, WorkspaceCurve};
 pub use remarks::SpatialRemark;
 pub use tripod::{
-    CartesianRobot, CartesianSingular, Counted, DeterminantPoint, Hexapteron, Orientations, PlaneConditions,
-    Quadrupteron, Tilt, TiltLimit, Tripod, TripodAssemblies, TripodAssembly, TripodDesign, TripodError, TripodLeg,
-    TripodPose, TripodReach, TripodSingularity, TripodStatus, TripodVelocity, Tripteron,
+    CartesianRobot, CartesianSingular, Counted, DeterminantPoint, Hexapteron, Multipteron, MultipteronError,
+    MultipteronPoses, Orientations, PlaneConditions, Quadrupteron, Tilt, TiltLimit, Tripod, TripodAssemblies,
+    TripodAssembly, TripodDesign, TripodError, TripodLeg, TripodPose, TripodReach, TripodSingularity, TripodStatus,
+    TripodVelocity, Tripteron,
 };

@@ -177,7 +177,9 @@ fn pictures_and_drawings_are_written_together() {
 fn one_assembly_reaches_what_it_reaches() {
     let file = model("table1-1a");
     let report = json(&["workspace", &file, "maximal", "--assembly=7,20,270", "--json"]);
-    assert!((number(&report["area"]) - 315.848_147).abs() < 1e-4 && (number(&report["assembly"][0]) - 7.0).abs() < 1e-15);
+    assert!(
+        (number(&report["area"]) - 315.848_147).abs() < 1e-4 && (number(&report["assembly"][0]) - 7.0).abs() < 1e-15
+    );
     let line = refused(&["workspace", &file, "dextrous", "--assembly=7,20,270"]);
     assert!(line.contains("--assembly goes with the kind maximal"), "{line}");
     let line = refused(&["workspace", &file, "maximal", "--assembly=700,20,270"]);

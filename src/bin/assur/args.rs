@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
+use crate::multipteron::MultipteronCommand;
 use crate::spatial::{HanaCommand, TripodCommand};
 use crate::workspaces::{SweepArgs, WorkspaceArgs};
 
@@ -32,7 +33,7 @@ pub(crate) enum Command {
     #[command(
         after_help = "Families: 3-RPR, 3-RRR, 3-PRR, 3-RRP, 3-PRP, 3-PPR, 3-RPP; with the actuated joint marked, \
         3-_R_RR; three different legs, R_P_R,_P_RR,_R_RR; \
-        the spatial robots hana and tripod.\nExample:  assur new 3-RPR --output arm.toml"
+        the spatial robots hana, tripod, tripod-inclined, tripod-upright, tripteron, quadrupteron, hexapteron.\nExample:  assur new 3-RPR --output arm.toml"
     )]
     New {
         /// The family, as 3-RPR.
@@ -264,6 +265,11 @@ pub(crate) enum Command {
     Tripod {
         #[command(subcommand)]
         command: TripodCommand,
+    },
+    /// Tripteron, Quadrupteron and Hexapteron as models; the Pentapteron is not covered.
+    Multipteron {
+        #[command(subcommand)]
+        command: MultipteronCommand,
     },
     /// Prints a derivation worked through, or lists them.
     #[command(after_help = "Example:  assur derive --list")]

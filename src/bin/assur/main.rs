@@ -6,6 +6,7 @@ mod derive;
 mod explore;
 mod kinematics;
 mod linkages;
+mod multipteron;
 mod output;
 mod png;
 mod spatial;
@@ -59,6 +60,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::Sweep(asked) => workspaces::sweep(&asked),
         Command::Hana { command } => spatial::hana(command),
         Command::Tripod { command } => spatial::tripod(command),
+        Command::Multipteron { command } => multipteron::multipteron(command),
         Command::Verify { report, model, tolerance, json } => verify(&report, &model, tolerance, json),
         Command::Derive { name: Some(name), .. } => output::print(&derive::document(&name)?),
         Command::Derive { name: None, .. } => output::print(&derive::list()),
@@ -71,9 +73,14 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
 }
 
 /// Models of the spatial robots, as in `examples/`.
-const SPATIAL_MODELS: [(&str, &str); 2] = [
+const SPATIAL_MODELS: [(&str, &str); 7] = [
     ("hana", include_str!("../../../examples/hana.toml")),
     ("tripod", include_str!("../../../examples/tripod-cartesian.toml")),
+    ("tripod-inclined", include_str!("../../../examples/tripod-inclined.toml")),
+    ("tripod-upright", include_str!("../../../examples/tripod-upright.toml")),
+    ("tripteron", include_str!("../../../examples/tripteron.toml")),
+    ("quadrupteron", include_str!("../../../examples/quadrupteron.toml")),
+    ("hexapteron", include_str!("../../../examples/hexapteron.toml")),
 ];
 
 fn new(family: &str, output: Option<&Path>) -> Result<(), Failure> {

@@ -208,7 +208,8 @@ pub(crate) fn workspace(asked: &WorkspaceArgs) -> Result<(), Failure> {
     let found =
         if asked.optimise.is_empty() { None } else { Some(optimise(&model, file, &kind, &modes, &asked.optimise)?) };
     if asked.shown.json {
-        let mut report = WorkspaceReport::new(&workspace, &modes, assembly.map(|pose| [pose.x, pose.y, pose.phi]), &members);
+        let mut report =
+            WorkspaceReport::new(&workspace, &modes, assembly.map(|pose| [pose.x, pose.y, pose.phi]), &members);
         report.overlays = overlays.iter().map(|(_, other)| WorkspaceReport::new(other, &modes, None, &[])).collect();
         if let Some(stack) = &stack {
             report = report.with_stack(stack);

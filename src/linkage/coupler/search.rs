@@ -10,7 +10,7 @@ use super::curve::{CouplerCurve, CouplerSide, complex};
 use super::equation::{Biquadratic, SideNumbers, coupler_equation};
 use super::meet::{Intersection, Intersections};
 use super::sextic::to_complex;
-use crate::algebra::Gaussian;
+use crate::algebra::{Gaussian, Ring, Twice};
 use crate::linkage::loops::{Candidate, Route, candidates};
 use crate::linkage::pivoting::{modulus, solve};
 use crate::roots::pencil_eigenpairs;
@@ -29,6 +29,9 @@ const RANK: f64 = 1e-6;
 const REAL_MISS: f64 = 1e-9;
 /// After a step this short the next is not taken: what it would mend is the square of this times a condition that may be large near common foci.
 const LAST_STEP: f64 = 1e-13;
+/// Places this far away in sizes of the curve, or rotations of such a modulus, are what points at infinity leave: there the equations hold up to
+/// rounding without being solved (heuristic: those of the reference pair with nearly common foci lie at 4e4).
+const FAR: f64 = 1e8;
 /// An eigenvalue this close to infinity belongs to no finite intersection.
 const EXTREME: f64 = 1e-12;
 
@@ -79,6 +82,32 @@ impl Side {
             }
             Self::Line { a, n, p } => [n.conj() * p, n.conj() * (z - a) + n * (w - a.conj()), n * p.conj()],
         }
+    }
+}
+
+impl Side {
+    /// The equation's value, rounded once.
+    fn value_twice(&self, [z, w]: [Complex64; 2], theta: Complex64) -> Complex64 {
+        let twice = |z: Complex64| Gaussian::new(Twice::from(z.re), Twice::from(z.im));
+        let back = theta.inv();
+        // One Newton step doubles the digits of the inverse.
+        let inverse = twice(back) + twice(back) * (Gaussian::one() - twice(theta) * twice(back));
+        let offsets = |a: Complex64, p: Complex64| {
+            let u = twice(z) - twice(a) + twice(theta) * twice(p);
+            let v = twice(w) - twice(a.conj()) + twice(p.conj()) * inverse;
+            (u, v)
+        };
+        let value = match *self {
+            Self::Circle { a, p, r } => {
+                let (u, v) = offsets(a, p);
+                u * v - Gaussian::real(Twice::from(r) * Twice::from(r))
+            }
+            Self::Line { a, n, p } => {
+                let (u, v) = offsets(a, p);
+                twice(n.conj()) * u + twice(n) * v
+            }
+        };
+        Complex64::new(value.re.high(), value.im.high())
     }
 }
 
@@ -296,6 +325,7 @@ impl Search {
     fn linearise(&self, unknowns: &[Complex64], linear: &mut Linear) -> f64 {
         let size = self.equations.len();
         let mut worst = 0.0f64;
+        linear.units = [0, 1].map(|k| modulus(unknowns[k]).max(1.0));
         let inverses: ArrayVec<Complex64, 2> = unknowns[2..].iter().map(Complex64::inv).collect();
         for (row, equation) in self.equations.iter().enumerate() {
             let (theta, inverse) =
@@ -304,12 +334,13 @@ impl Search {
             let scale = if value.size > 0.0 { 1.0 / value.size } else { 1.0 };
             let line = &mut linear.matrix[row * size..(row + 1) * size];
             line.fill(Complex64::ZERO);
-            line[0] = value.by_z * scale;
-            line[1] = value.by_w * scale;
+            line[0] = value.by_z * (scale * linear.units[0]);
+            line[1] = value.by_w * (scale * linear.units[1]);
             if let Some(rotation) = equation.rotation {
                 line[2 + rotation] = value.by_theta * scale;
             }
             linear.right[row] = -value.value * scale;
+            linear.scales[row] = scale;
             let residual = modulus(linear.right[row]);
             // `max` would drop a NaN.
             worst = if residual > worst || residual.is_nan() { residual } else { worst };
@@ -317,7 +348,7 @@ impl Search {
         if worst.is_nan() { f64::INFINITY } else { worst }
     }
 
-    /// Newton's method: absolute steps in z and w, relative ones in the rotations.
+    /// Newton's method: steps in z and w in units of the size or of themselves, whichever is larger, relative ones in the rotations.
     fn refine(&self, start: &[Complex64]) -> Option<Solution> {
         const MOST_STEPS: usize = 20;
         const LONGEST_STEP: f64 = 0.5;
@@ -334,16 +365,8 @@ impl Search {
             regular = step.kernel.is_none();
             let turn = step.solution[2..].iter().map(|d| modulus(*d)).fold(0.0, f64::max);
             let held = if turn > LONGEST_STEP { LONGEST_STEP / turn } else { 1.0 };
-            let mut next = unknowns.clone();
-            let mut longest = turn;
-            for (k, delta) in step.solution.iter().enumerate() {
-                if k < 2 {
-                    next[k] += delta * held;
-                    longest = longest.max(modulus(*delta) / modulus(next[k]).max(1.0));
-                } else {
-                    next[k] *= 1.0 + delta * held;
-                }
-            }
+            let longest = step.solution.iter().map(|d| modulus(*d)).fold(0.0, f64::max);
+            let next = moved(&unknowns, &step.solution, &linear.units, held);
             let after = self.linearise(&next, &mut linear);
             // The first step always is taken: near common foci small residuals say little about a start.
             if taken > 0 && residual < CLOSED && after >= residual {
@@ -357,8 +380,36 @@ impl Search {
                 break;
             }
         }
-        let closed = residual < CLOSED && unknowns.iter().all(|x| x.is_finite());
+        let mut closed = residual < CLOSED && unknowns.iter().all(|x| x.is_finite());
+        if closed && regular {
+            residual = self.last_digits(&mut unknowns, &mut linear);
+            closed = residual < CLOSED;
+        }
+        let (places, turns) = unknowns.split_at(2);
+        closed &= places.iter().all(|x| modulus(*x) < FAR);
+        closed &= turns.iter().all(|t| (1.0 / FAR..FAR).contains(&modulus(*t)));
         closed.then_some(Solution { unknowns, residual, regular, real: false, multiplicity: 1 })
+    }
+
+    /// One step more with residuals taken to twice the digits: near common foci, `w` is lost in `z`, and so the residual in rounding. The
+    /// residual afterwards.
+    fn last_digits(&self, unknowns: &mut Unknowns, linear: &mut Linear) -> f64 {
+        let size = self.equations.len();
+        let residual = self.linearise(unknowns, linear);
+        for (row, equation) in self.equations.iter().enumerate() {
+            let theta = equation.rotation.map_or(Complex64::ONE, |k| unknowns[2 + k]);
+            linear.right[row] = -equation.side.value_twice([unknowns[0], unknowns[1]], theta) * linear.scales[row];
+        }
+        let Some(step) = solve(&mut linear.matrix[..size * size], &mut linear.right[..size], size, RANK) else {
+            return residual;
+        };
+        let next = moved(unknowns, &step.solution, &linear.units, 1.0);
+        let after = self.linearise(&next, linear);
+        if after < CLOSED && apart(&next, unknowns) < SAME {
+            *unknowns = next;
+            return after;
+        }
+        residual
     }
 
     /// The answer, measured on the curves as given.
@@ -394,6 +445,22 @@ impl Search {
 struct Linear {
     matrix: [Complex64; 16],
     right: [Complex64; 4],
+    /// One over the size of each equation's terms.
+    scales: [f64; 4],
+    /// What a step of one means in z and w: the size of the curve, or for places further away their distance.
+    units: [f64; 2],
+}
+
+/// Unknowns after a step.
+fn moved(unknowns: &Unknowns, step: &[Complex64], units: &[f64; 2], held: f64) -> Unknowns {
+    let mut next = unknowns.clone();
+    for (k, (next, delta)) in next.iter_mut().zip(step).enumerate() {
+        match units.get(k) {
+            Some(unit) => *next += delta * (held * unit),
+            None => *next *= 1.0 + delta * held,
+        }
+    }
+    next
 }
 
 /// `(w', z', 1 / theta')`: a solution too, since the numbers of the curves are real.

@@ -133,17 +133,13 @@ impl Linkage {
         own.map(condition).filter(|condition| condition.ends.len() > 1).collect()
     }
 
+    /// Bodies that sliders join are parallel for good: one that closes a loop of them says so twice.
     fn refuse_loops_of_sliders(&self, conditions: &[Condition], bodies: usize) -> Result<(), LinkageError> {
-        let mut root: Vec<usize> = (0..bodies).collect();
-        for condition in conditions.iter().filter(|condition| self.joints[condition.joint].direction().is_some()) {
-            let [a, b] = [0, 1].map(|k| root[condition.ends[k].body]);
-            if a == b {
-                let members: Vec<usize> = (0..bodies).filter(|&body| root[body] == a).collect();
-                return Err(LinkageError::SlidersOnly { links: self.links_of(&members) });
-            }
-            root.iter_mut().filter(|own| **own == b).for_each(|own| *own = a);
+        let sliders = conditions.iter().filter(|condition| self.joints[condition.joint].direction().is_some());
+        match loop_of(bodies, sliders.map(|condition| [0, 1].map(|k| condition.ends[k].body))) {
+            Some(members) => Err(LinkageError::SlidersOnly { links: self.links_of(&members) }),
+            None => Ok(()),
         }
-        Ok(())
     }
 
     fn plan(&self, members: Vec<usize>, conditions: &[Condition], known: u32) -> Result<Plan, LinkageError> {
@@ -166,6 +162,13 @@ impl Linkage {
                     slider = slider.or(Some(condition.joint));
                 }
             }
+        }
+        // What is known has its orientation already, so a loop may close through it.
+        let sliders = edges.iter().filter(|edge| edge.direction.is_some()).map(|edge| edge.nodes);
+        if let Some(around) = loop_of(members.len() + 1, sliders) {
+            let bodies: Vec<usize> =
+                around.iter().filter_map(|node| node.checked_sub(1)).map(|place| members[place]).collect();
+            return Err(LinkageError::SlidersOnly { links: self.links_of(&bodies) });
         }
         let pairs: Vec<[usize; 2]> = edges.iter().map(|edge| edge.nodes).collect();
         let links = || self.links_of(&members);
@@ -192,6 +195,19 @@ impl Linkage {
         };
         Ok(Plan { members, edges, means, name })
     }
+}
+
+/// What hangs together with the first pair that closes a loop.
+fn loop_of(nodes: usize, pairs: impl Iterator<Item = [usize; 2]>) -> Option<Vec<usize>> {
+    let mut root: Vec<usize> = (0..nodes).collect();
+    for pair in pairs {
+        let [a, b] = pair.map(|node| root[node]);
+        if a == b {
+            return Some((0..nodes).filter(|&node| root[node] == a).collect());
+        }
+        root.iter_mut().filter(|own| **own == b).for_each(|own| *own = a);
+    }
+    None
 }
 
 fn letter(edge: &Edge) -> char {

@@ -25,6 +25,9 @@ const MOST_STEPS: usize = 20;
 /// After a relative step this short the next is not taken: what it would mend is the square of this times the condition of the Jacobian, and
 /// rounding leaves 1e-16 times that.
 const LAST_STEP: f64 = 1e-9;
+/// Rotations of such a modulus are what solutions at infinity leave: there the loops close up to rounding without being solved (heuristic:
+/// of 180,000 solutions of random trusses the farthest has 5e4).
+const FAR: f64 = 1e8;
 /// Largest residual of a closed loop: sum over the sum of the sizes of its terms.
 pub(super) const CLOSED: f64 = 1e-11;
 /// A pivot below this part of the largest counts as zero: the Jacobian has lost a rank (heuristic; double solutions settle at about
@@ -109,7 +112,8 @@ impl Closure {
                 break;
             }
         }
-        (residual < CLOSED && theta.iter().all(|t| t.is_finite())).then_some(Refined { theta, residual, regular })
+        let near = |t: &Complex64| (1.0 / FAR..FAR).contains(&modulus(*t));
+        (residual < CLOSED && theta.iter().all(near)).then_some(Refined { theta, residual, regular })
     }
 
     /// Whether a whole curve of solutions passes through one where the Jacobian has lost a rank: points are sought at distances along

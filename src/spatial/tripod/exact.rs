@@ -299,14 +299,18 @@ fn resultant_rows<R: Ring>(conics: &[[[UPoly<R>; 3]; 3]; 3]) -> Vec<Vec<UPoly<R>
         PAIRS.iter().map(|&(i, j)| if i == j { entry(i, i) } else { entry(i, j) + entry(j, i) }).collect()
     };
     let [a, b, c] = conics;
-    // det[A e_i, B e_j, C e_k]
+    // det[A e_i, B e_j, C e_k]; rows are columns.
     let mut volumes: Vec<UPoly<R>> = Vec::with_capacity(27);
-    for (i, j) in (0..9).map(|pair| (pair / 3, pair % 3)) {
-        let cross: [UPoly<R>; 3] = std::array::from_fn(|m| {
-            let (n, o) = ((m + 1) % 3, (m + 2) % 3);
-            a[n][i].clone() * b[o][j].clone() - a[o][i].clone() * b[n][j].clone()
-        });
-        volumes.extend((0..3).map(|k| (0..3).fold(UPoly::zero(), |sum, m| sum + cross[m].clone() * c[m][k].clone())));
+    for first in a {
+        for second in b {
+            let cross: [UPoly<R>; 3] = std::array::from_fn(|m| {
+                let (n, o) = ((m + 1) % 3, (m + 2) % 3);
+                first[n].clone() * second[o].clone() - first[o].clone() * second[n].clone()
+            });
+            for third in c {
+                volumes.push((0..3).fold(UPoly::zero(), |sum, m| sum + cross[m].clone() * third[m].clone()));
+            }
+        }
     }
     let volume = |i: usize, j: usize, k: usize| volumes[9 * i + 3 * j + k].clone();
     let mut rows: Vec<Vec<UPoly<R>>> = conics.iter().map(|conic| quadratic(&|i, j| conic[i][j].clone())).collect();

@@ -110,14 +110,17 @@ impl Tripod {
                 }
             }
         }
-        for (j, k) in (0..LIMITS * GRID).map(|cell| (cell / GRID, cell % GRID)) {
-            let (before, here, after) = (table[(k + GRID - 1) % GRID][j], table[k][j], table[(k + 1) % GRID][j]);
-            if here.is_finite() && here <= before && here <= after && here <= PROMISING * best {
-                let value =
-                    |azimuth: f64| first_end(&frame.one_limit(azimuth, j), FARTHEST.tan()).unwrap_or(f64::INFINITY);
-                let (azimuth, t) = least(value, step * k as f64, step, [before, here, after]);
-                if t < best {
-                    (best, found) = (t, Some((azimuth.rem_euclid(TAU), j)));
+        let columns: [[f64; GRID]; LIMITS] = std::array::from_fn(|j| table.map(|row| row[j]));
+        for (j, around) in columns.iter().enumerate() {
+            for (k, &here) in around.iter().enumerate() {
+                let (before, after) = (around[(k + GRID - 1) % GRID], around[(k + 1) % GRID]);
+                if here.is_finite() && here <= before && here <= after && here <= PROMISING * best {
+                    let value =
+                        |azimuth: f64| first_end(&frame.one_limit(azimuth, j), FARTHEST.tan()).unwrap_or(f64::INFINITY);
+                    let (azimuth, t) = least(value, step * k as f64, step, [before, here, after]);
+                    if t < best {
+                        (best, found) = (t, Some((azimuth.rem_euclid(TAU), j)));
+                    }
                 }
             }
         }
