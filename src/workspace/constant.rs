@@ -69,10 +69,12 @@ impl Reach {
 
     pub(super) fn constant(&self, phi: f64) -> Region {
         let turn = direction(phi);
-        let bounds: Vec<Bound> = (self.limits())
-            .map(|limit| Bound {
+        // Legs by their places here: a reach of one leg alone keeps that leg's number in its limits.
+        let numbered = self.legs.iter().enumerate().flat_map(|(k, leg)| leg.limits.iter().map(move |limit| (k, limit)));
+        let bounds: Vec<Bound> = numbered
+            .map(|(leg, limit)| Bound {
                 carrier: limit.at_orientation(turn),
-                leg: limit.leg,
+                leg,
                 active: [limit.active()].into_iter().collect(),
             })
             .collect();

@@ -238,7 +238,7 @@ impl Reach {
     ///
     /// **Accuracy**: a few roundings of the mechanism's largest length; for legs with a range of joint 3, whose slack is searched between even cuts
     /// of the circle, a peak narrower than two degrees may be passed over, which makes the margin too small, never `inside` wrong. Outside, the margin is measured to the nearest
-    /// edges in the best orientation. **Cost**: `inside` alone ([`Reach::contains`]) below a microsecond; the margin some microseconds for rings, some tens for sliders.
+    /// edges in the best orientation. **Cost**: `inside` alone ([`Reach::contains`]) below a microsecond; the margin some microseconds for rings, some tens for sliders with links and sectors, some milliseconds for legs with a range of joint 3.
     ///
     /// ```
     /// use assur::{Leg, Manipulator, workspace::{WorkspaceKind, WorkspaceModes}};

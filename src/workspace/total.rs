@@ -27,8 +27,8 @@ impl Reach {
             }
         }
         let mut bounds = Vec::new();
-        for leg in &self.legs {
-            leg.worst(range, self.size, &mut bounds);
+        for (k, leg) in self.legs.iter().enumerate() {
+            leg.worst(k, range, self.size, &mut bounds);
         }
         let sweep = Sweep::new(range);
         let admits = |leg: usize, p: Vector2<f64>, tol: f64| self.legs[leg].allows_all(p, &sweep, tol, self.size);
@@ -105,8 +105,7 @@ impl LegReach {
     }
 
     /// Every curve on which a limit of the leg is at its worst orientation.
-    fn worst(&self, range: Option<&PhiRange>, size: f64, out: &mut Vec<Bound>) {
-        let leg = self.limits.first().map_or(0, |limit| limit.leg);
+    fn worst(&self, leg: usize, range: Option<&PhiRange>, size: f64, out: &mut Vec<Bound>) {
         let mut push = |carrier: Carrier, active: &[ActiveLimit]| {
             let finite = match carrier {
                 Carrier::Circle { radius, .. } => radius.is_finite(),
