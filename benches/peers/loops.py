@@ -26,7 +26,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent.parent
 HOME = ROOT / "target" / "peers"
 PYTHON = HOME / "bin" / "python"
-COUPLERS, TRUSSES, RUNS = 2, 1, 1
+COUPLERS, TRUSSES, RUNS = 30, 10, 5
 SEED = 18
 
 # Edges, the hidden link that gives the smallest regular pencil with link 0 as ground, and the number of assemblies.
@@ -40,14 +40,14 @@ needsPackage "NumericalAlgebraicGeometry"
 setRandomSeed 4
 R = CC[z,w]
 form = c -> sum(4, i -> sum(4, j -> ((c#i#j#0) + ii*(c#i#j#1)) * z^i * w^j))
-one = {P1, P2}
+
 start = {(z^3 - P1#0)*(w^3 - P1#1), (z^3 - P2#0)*(w^3 - P2#1)}
 cube = c -> apply(3, k -> (c^(1/3)) * exp(2*pi*ii*k/3))
-points = flatten apply(cube(P1#0), x -> apply(cube(P2#1), y -> {x, y})) | flatten apply(cube(P2#0), x -> apply(cube(P1#1), y -> {x, y}))
+starts = flatten apply(cube(P1#0), x -> apply(cube(P2#1), y -> {x, y})) | flatten apply(cube(P2#0), x -> apply(cube(P1#1), y -> {x, y}))
 scan(PROBLEMS, c -> (
     target = {form(c#0), form(c#1)};
     best = infinity;
-    for k from 1 to RUNS do (t = elapsedTiming(found = track(start, target, points, gamma => exp(0.7*ii))); best = min(best, t#0));
+    for k from 1 to RUNS do (t = elapsedTiming(found = track(start, target, starts, gamma => exp(0.7*ii))); best = min(best, t#0));
     << toExternalString best << " " << #select(found, p -> status p === Regular) << endl))
 """
 
@@ -88,11 +88,11 @@ def macaulay2(equations: list) -> list[tuple[float, int]]:
 
     numbers = [[[0.6, 0.8], [-0.28, 0.96]], [[0.8, -0.6], [-0.96, -0.28]]]
     constants = ["{" + ",".join(f"{re:+.2f}+ii*({im:+.2f})" for re, im in row) + "}" for row in numbers]
-    text = MACAULAY2.replace("one = {P1, P2}\n", "").replace("P1", constants[0]).replace("P2", constants[1])
+    text = MACAULAY2.replace("P1", constants[0]).replace("P2", constants[1])
     text = text.replace("PROBLEMS", braces(equations)).replace("RUNS", str(RUNS))
     place = HOME / "loops.m2"
     place.write_text(text)
-    done = subprocess.run(["M2", "--script", str(place)], check=True, capture_output=True, text=True)
+    done = subprocess.run(["M2", "--script", str(place)], check=True, capture_output=True, text=True, stdin=subprocess.DEVNULL)
     rows = [line.split() for line in done.stdout.splitlines() if line.strip()]
     return [(float(seconds.split("p")[0]), int(count)) for seconds, count in rows]
 
