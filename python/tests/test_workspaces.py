@@ -90,8 +90,10 @@ def test_regions_travel_and_show_themselves() -> None:
 def test_one_assembly_alone() -> None:
     robot = ROBOT.with_numbers({"leg1.limits.min": 11.5})
     whole = robot.workspace()
-    inside = next(place for place in np.mgrid[-15:15:0.5, 5:25:0.5].reshape(2, -1).T if whole.contains([place])[0])
-    phi = next(phi for phi in np.linspace(0, 2 * np.pi, 720) if any(not m.violations for m in robot.inverse([*inside, phi])))
+    places = np.mgrid[-15:15:0.5, 5:25:0.5].reshape(2, -1).T
+    inside = places[np.argmax(whole.memberships(places).margin)]
+    turns = np.linspace(0, 2 * np.pi, 3600)
+    phi = next(phi for phi in turns if any(not mode.violations for mode in robot.inverse([*inside, phi])))
     one = robot.workspace(assembly=[*inside, phi])
     assert 0 < one.area < whole.area and one.assembly is not None
     with pytest.raises(assur.InputError, match="goes with the kind maximal"):
