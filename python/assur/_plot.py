@@ -401,7 +401,7 @@ def region(answer: Region, ax: Axes | None) -> Axes:
             ax.plot(*part.at, ".", color=COLOURS[0])
     if 0 < len(names) <= MOST_NAMED:
         ax.legend(fontsize="x-small")
-    ax.set_title(f"{answer.kind}: {answer._summary()}", fontsize="medium")
+    ax.set_title(f"{answer.kind}: " + (f"area {answer.area:.8g}" if answer.components else "empty"))
     ax.autoscale_view()
     return ax
 

@@ -327,6 +327,7 @@ class Manipulator:
         lower: float | None = None,
         upper: float | None = None,
         mode: str = "both",
+        assembly: ArrayLike | None = None,
     ) -> Region:
         """Where the reference point can reach, exactly; of legs RPR, RRR and PRR in any mixture.
 
@@ -339,6 +340,8 @@ class Manipulator:
             Radians; a range runs counter-clockwise, equal ends are that single orientation, a full turn or more is every one.
         mode : str
             ``"both"``, or a sign for each leg.
+        assembly : array_like, shape (3,), optional
+            With ``"maximal"``: only what the assembly in this pose reaches without being taken apart.
 
         Raises
         ------
@@ -346,7 +349,10 @@ class Manipulator:
             A leg that is not covered or not bounded, angles that the kind does not take or lacks.
         """
         angles = _angles_of(kind, phi, lower, upper)
-        question = (kind, angles, mode)
+        pose = optional_vector("assembly", assembly, 3)
+        if pose is not None and kind != "maximal":
+            raise InputError("assembly: goes with the kind maximal", field="assembly", value=kind)
+        question = (kind, angles, mode, pose)
         answer, shape = self._model.workspace(*question)
         found = result(Region, answer, (self, question))
         # The cache of the property: what is there need not be made again.

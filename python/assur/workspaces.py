@@ -125,6 +125,8 @@ class Region(Report):
         Points and curves of no area.
     separating : tuple of BoundaryArc
         Arcs inside where a way of reaching the places ends.
+    assembly : ndarray, shape (3,), or None
+        The pose whose assembly alone counts, where one was named.
     """
 
     kind: str
@@ -142,6 +144,7 @@ class Region(Report):
     loops: tuple[BoundaryLoop, ...]
     isolated: tuple[Isolated, ...]
     separating: tuple[BoundaryArc, ...]
+    assembly: FloatArray | None
 
     _renamed: ClassVar[Mapping[str, str]] = {"from": "lower", "to": "upper"}
 
@@ -168,6 +171,8 @@ class Region(Report):
         for row in np.flatnonzero(~np.isfinite(given).all(axis=1)):
             place = given[row].tolist()
             raise InputError(f"points: row {row}: {place} must be finite", row=int(row), field="points", value=place)
+        if self.assembly is not None:
+            raise InputError("points: membership is of whole workspaces, not of one assembly", field="assembly")
         inside, margin, binding = self._shape.memberships(given)
         return Memberships(inside, margin, tuple(binding))
 

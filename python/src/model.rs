@@ -187,8 +187,16 @@ impl Model {
     }
 
     /// The workspace of a kind.
-    fn workspace(&self, py: Python<'_>, kind: &str, angles: [f64; 3], mode: &str) -> PyResult<(Answer, Shape)> {
-        Ok(py.detach(|| workspace::workspace(&self.file, kind, angles, mode))?)
+    #[pyo3(signature = (kind, angles, mode, assembly))]
+    fn workspace(
+        &self,
+        py: Python<'_>,
+        kind: &str,
+        angles: [f64; 3],
+        mode: &str,
+        assembly: Option<[f64; 3]>,
+    ) -> PyResult<(Answer, Shape)> {
+        Ok(py.detach(|| workspace::workspace(&self.file, kind, angles, mode, assembly))?)
     }
 
     /// What is proved of the poses that a report claims.

@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use assur::Manipulator;
 use assur::exchange::{ModelFile, WorkspaceReport};
 use assur::plane::PhiRange;
 use assur::plot::{WorkspaceLayer, draw_workspaces};
 use assur::workspace::{ArcCurve, BoundaryArc, Reach, Region, Workspace, WorkspaceKind, WorkspaceModes};
+use assur::{Manipulator, Pose};
 use numpy::{PyArray1, PyReadonlyArray2, ToPyArray};
 use pyo3::prelude::*;
 
@@ -31,17 +31,22 @@ fn kind_of(name: &str, phi: f64, from: f64, to: f64) -> WorkspaceKind {
     }
 }
 
-/// The workspace of a kind.
+/// The workspace of a kind, or what one assembly reaches of the maximal one.
 pub fn workspace(
     file: &Arc<ModelFile>,
     kind: &str,
     [phi, from, to]: [f64; 3],
     mode: &str,
+    assembly: Option<[f64; 3]>,
 ) -> Result<(Answer, Shape), Refused> {
     let modes: WorkspaceModes = mode.parse().map_err(Refused::input)?;
     let reach = file.manipulator.reach(&modes).map_err(Refused::input)?;
-    let workspace = Arc::new(reach.workspace(&kind_of(kind, phi, from, to)).map_err(Refused::input)?);
-    let json = WorkspaceReport::new(&workspace, &modes, None, &[]).to_json();
+    let found = match assembly {
+        Some([x, y, phi]) => reach.assembly(&Pose::new(x, y, phi)),
+        None => reach.workspace(&kind_of(kind, phi, from, to)),
+    };
+    let workspace = Arc::new(found.map_err(Refused::input)?);
+    let json = WorkspaceReport::new(&workspace, &modes, assembly, &[]).to_json();
     let shape = Shape { reach: reach.clone(), workspace: workspace.clone() };
     let file = file.clone();
     let draw = move || draw(&file.manipulator, &reach, &workspace);

@@ -48,7 +48,7 @@ def answers() -> list[Report]:
         HANA.velocity([-2, -12, 0.3], rates=[1, 0, 0]),
         HANA.workspace(),
         ARM.workspace(),
-        ARM.workspace("inclusive", lower=0.0, upper=1.0),
+        ARM.workspace("inclusive", lower=3.5, upper=4.5),
         HANA.capability([-2, -12], cells=8, strokes=[1, 2]),
         TRIPOD.inverse([200, 260, 240, 0.1, 0.05, -0.03]),
         TRIPOD.forward([240, 254, 188, 164, 92, 47]),

@@ -21,10 +21,10 @@ ROBOT = assur.Manipulator.from_file(EXAMPLES / "workspaces" / "table1-1a.toml")
 
 #: Kinds with their angles in degrees, as the shipped models' files are written.
 KINDS: dict[str, dict[str, float]] = {
-    "constant": {"phi": 30.0},
+    "constant": {"phi": 240.0},
     "maximal": {},
-    "inclusive": {"lower": 0.0, "upper": 60.0},
-    "total": {"lower": 30.0, "upper": 35.0},
+    "inclusive": {"lower": 200.0, "upper": 260.0},
+    "total": {"lower": 250.0, "upper": 255.0},
     "dextrous": {},
 }
 OPTIONS = {"phi": "--phi", "lower": "--from", "upper": "--to"}
@@ -61,7 +61,7 @@ def test_membership_is_the_inverse_problems(kind: str, rng: np.random.Generator)
     assert sure.sum() > 50
     for (x, y), inside in zip(points[sure][:60], found.inside[sure][:60], strict=True):
         if kind == "constant":
-            assert allowed(x, y, math.radians(30.0)) == inside
+            assert allowed(x, y, math.radians(240.0)) == inside
         elif kind == "maximal" and not inside:
             assert not any(allowed(x, y, phi) for phi in np.linspace(-np.pi, np.pi, 90))
 
@@ -85,6 +85,19 @@ def test_regions_travel_and_show_themselves() -> None:
     assert "area" in repr(region) and (region.svg() or "").count("<svg") == 1
     ax = region.plot()
     assert ax.patches and ax.get_title().startswith("maximal")
+
+
+def test_one_assembly_alone() -> None:
+    robot = ROBOT.with_numbers({"leg1.limits.min": 11.5})
+    whole = robot.workspace()
+    inside = next(place for place in np.mgrid[-15:15:0.5, 5:25:0.5].reshape(2, -1).T if whole.contains([place])[0])
+    phi = next(phi for phi in np.linspace(0, 2 * np.pi, 720) if any(not m.violations for m in robot.inverse([*inside, phi])))
+    one = robot.workspace(assembly=[*inside, phi])
+    assert 0 < one.area < whole.area and one.assembly is not None
+    with pytest.raises(assur.InputError, match="goes with the kind maximal"):
+        robot.workspace("dextrous", assembly=[0.0, 0.0, 0.0])
+    with pytest.raises(assur.InputError, match="not of one assembly"):
+        one.contains([[0.0, 0.0]])
 
 
 def test_nothing_is_an_answer() -> None:

@@ -85,11 +85,19 @@ impl Reach {
     /// let own = robot.reach(&WorkspaceModes::Both)?.only(1).workspace(&WorkspaceKind::Constant { phi: 0.3 })?;
     /// let ring = std::f64::consts::PI * (14.0 * 14.0 - 5.0 * 5.0);
     /// assert!((own.region.area - ring).abs() < 1e-10 && own.region.holes == 1);
+    /// let own = robot.reach(&WorkspaceModes::Both)?.only(1).workspace(&WorkspaceKind::Maximal)?;
+    /// assert_eq!(own.region.components, 1);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
     pub fn only(&self, leg: usize) -> Self {
         Self { legs: vec![self.legs[leg].clone()], edges: vec![self.edges[leg].clone()], size: self.size }
+    }
+
+    /// The leg that a limit names; of one leg alone ([`Reach::only`]) the numbers stay.
+    pub(super) fn leg_of(&self, limit: usize) -> &LegReach {
+        let named = |leg: &&LegReach| leg.limits.first().is_some_and(|first| first.leg == limit);
+        self.legs.iter().find(named).expect("a limit belongs to a leg of its reach")
     }
 
     /// The mechanism's largest length: the scale of roundings.

@@ -246,7 +246,7 @@ impl Curves {
                 for first in &self.surfaces[one].limits {
                     for second in &self.surfaces[other].limits {
                         let agree = first.mode.is_none() || second.mode.is_none() || first.mode == second.mode;
-                        let motion = edges::edge(&reach.legs[leg], first, second).filter(|_| agree);
+                        let motion = edges::edge(reach.leg_of(leg), first, second).filter(|_| agree);
                         if let Some(motion) = motion
                             && !motions.contains(&motion)
                         {

@@ -127,7 +127,7 @@ pub(super) fn free_ends(one: &Surface, other: &Surface, reach: &Reach) -> Vec<f6
     if joint(one).is_none() || joint(one) != joint(other) {
         return Vec::new();
     }
-    let leg = &reach.legs[one.leg];
+    let leg = reach.leg_of(one.leg);
     let (Some(base), Some(platform)) = (leg.base_sector, leg.platform_sector) else { return Vec::new() };
     let mut out = Vec::new();
     for u in [base.from, base.to] {

@@ -289,7 +289,7 @@ impl<'a> Tracer<'a> {
             Source::PhiEnd(true) => one.sense * slopes[0].by_phi <= 0.0,
             Source::Pair => one.sense * slopes[0].by_phi * other.sense * slopes[1].by_phi < 0.0,
         };
-        let legs = surfaces.map(|surface| &self.reach.legs[surface.leg]);
+        let legs = surfaces.map(|surface| self.reach.leg_of(surface.leg));
         let bounds = |k: usize, limit: &Limit| edges::bounds(legs[k], limit, at, turn, tol);
         let mut found = None;
         'search: for one in &surfaces[0].limits {
