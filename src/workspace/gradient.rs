@@ -30,10 +30,11 @@ const TRIES: usize = 4;
 const RULE: [(f64, f64); 4] = [(-2.0, 1.0 / 12.0), (-1.0, -2.0 / 3.0), (1.0, 2.0 / 3.0), (2.0, -1.0 / 12.0)];
 /// A coupler arc is cut into this many parts for the first try of the quadrature.
 const PARTS: usize = 2;
-/// A part and its halves must agree to this, relative to the length of the boundary times the largest speed on it.
-const AGREE: f64 = 1e-13;
-/// A part is halved at most so often.
-const DEPTH: usize = 14;
+/// A part and its halves must agree to this, relative to the length of the part times the largest speed on it. Far above the roundings of the limits' derivatives, which
+/// halving does not make smaller; the halves themselves are better by the rule's order.
+const AGREE: f64 = 1e-10;
+/// A part is halved at most so often: where the speed has a kink, that is a thousandth of it.
+const DEPTH: usize = 6;
 
 /// Gauss-Legendre nodes and weights of order 10 on [-1, 1], positive half.
 const NODES: [[f64; 2]; 5] = [
@@ -47,7 +48,7 @@ const NODES: [[f64; 2]; 5] = [
 impl Manipulator {
     /// The derivatives of a workspace's area by design numbers, exactly: integrals over its boundary, not differences of areas.
     ///
-    /// **Shape**: one for each of `numbers`. **Units**: area over length, or over radians. **Accuracy**: quadrature to about 1e-12 of the boundary's length times its
+    /// **Shape**: one for each of `numbers`. **Units**: area over length, or over radians. **Accuracy**: quadrature to about 1e-10 of the boundary's length times its
     /// largest speed. **Cost**: some ten microseconds an arc and number.
     ///
     /// # Errors

@@ -28,9 +28,9 @@ fn area(case: &Case, kind: &WorkspaceKind, number: DesignNumber, value: f64) -> 
     Some(robot.workspace(kind, &modes_of(case)).ok()?.region.area)
 }
 
-fn compare(kinds: std::ops::Range<usize>, cases: u64) {
+fn compare(kinds: std::ops::Range<usize>, every: usize) {
     let (mut asked, mut kinks) = (0, 0);
-    for number in 0..cases * scale() {
+    for number in (0..100 * scale()).step_by(every) {
         let trouble = TROUBLES[(number / 10 % 10) as usize];
         // At these the area has kinks by construction.
         if [Trouble::Sliver, Trouble::Tangent, Trouble::ReferenceInPivot, Trouble::Symmetric, Trouble::CoincidentBases]
@@ -73,18 +73,18 @@ fn compare(kinds: std::ops::Range<usize>, cases: u64) {
             }
         }
     }
-    assert!(asked > 200 && kinks * 10 < asked, "{asked} slopes, {kinks} kinks");
+    assert!(asked > 60 && kinks * 10 < asked, "{asked} slopes, {kinks} kinks");
 }
 
 #[test]
 fn gradients_of_constant_total_and_dextrous_areas_are_those_of_differences() {
-    compare(0..1, 100);
-    compare(3..5, 100);
+    compare(0..1, 3);
+    compare(3..5, 3);
 }
 
 #[test]
 fn gradients_of_maximal_and_inclusive_areas_are_those_of_differences() {
-    compare(1..3, 60);
+    compare(1..3, 7);
 }
 
 #[test]
