@@ -3,6 +3,7 @@
 mod args;
 mod batch;
 mod derive;
+mod explore;
 mod kinematics;
 mod linkages;
 mod multipteron;
@@ -10,6 +11,7 @@ mod output;
 mod png;
 mod spatial;
 mod tables;
+mod workspaces;
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -44,15 +46,18 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             kinematics::velocity(&model, &pose, mode.as_deref(), &asked, json)
         }
         Command::Singularities { model, phi, mode, map, csv, no_polynomial, shown } => {
-            let asked = kinematics::AskedLoci { phi, mode, map, csv, polynomial: !no_polynomial };
+            let asked = kinematics::LociOptions { phi, mode, map, csv, polynomial: !no_polynomial };
             kinematics::singularities(&model, &asked, &shown)
         }
         Command::Path { model, through, from, output, shown } => {
             kinematics::path(&model, &through, &from, output.as_deref(), &shown)
         }
+        Command::Explore { model, inputs, port, no_open } => explore::run(model.as_deref(), &inputs, port, !no_open),
         Command::Coupler { file, complex, shown } => linkages::coupler(&file, complex, &shown),
         Command::Group { file, inputs, complex, shown } => linkages::group(&file, &inputs, complex, &shown),
         Command::Triad { file, asked } => triad(&file, &asked),
+        Command::Workspace(asked) => workspaces::workspace(&asked),
+        Command::Sweep(asked) => workspaces::sweep(&asked),
         Command::Hana { command } => spatial::hana(command),
         Command::Tripod { command } => spatial::tripod(command),
         Command::Multipteron { command } => multipteron::multipteron(command),

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use assur::exchange::{
-    AngleUnit, HanaFile, TripodFile, capability_stop_name, hana_capability_json, hana_forward_json, hana_inverse_json,
-    hana_velocity_json, hana_workspace_json, tilt_json, tilt_limit_name, tilt_map_json, tripod_determinant_csv,
+    AngleUnit, AskedTilts, HanaFile, HanaTilts, TiltSections, TripodFile, capability_stop_name, hana_forward_json,
+    hana_inverse_json, hana_velocity_json, hana_workspace_json, tilt_json, tilt_limit_name, tripod_determinant_csv,
     tripod_determinant_json, tripod_forward_json, tripod_inverse_json, tripod_velocity_json,
 };
 use assur::nalgebra::{Matrix3, Vector3, Vector6};
@@ -534,36 +534,20 @@ fn hana_capability(
     let HanaFile { robot, angle_unit } = HanaFile::read(file)?;
     let mode = hana_mode(mode, file)?;
     let place: Option<[f64; 2]> = optional("at", at, file)?;
-    let here = place.map(|at| Ok((at, robot.capability(at, mode)?))).transpose();
-    let here: Option<([f64; 2], Option<assur::Capability>)> =
-        here.map_err(|error: assur::HanaCapabilityError| about(file, error))?;
-    let best = robot.capability_supremum(mode).map_err(|error| about(file, error))?;
-    let mut curve = Vec::new();
-    for &half in strokes {
-        let other = robot.with_strokes(half).map_err(|error| about(file, error))?;
-        let found = other.capability_supremum(mode).map_err(|error| about(file, error))?;
-        curve.push((half, found.map(|found| found.zeta)));
-    }
-    let region = robot.workspace(0.0, mode).map_err(|error| about(file, error))?;
     let wanted = place.is_none() || shown.svg.is_some() || shown.png.is_some();
-    let map = match region.bbox.filter(|_| wanted) {
-        Some(window) => {
-            let bar = output::progress(Some(cells as u64), ROWS);
-            let map = robot.capability_map(mode, window, [cells; 2], |_| bar.inc(1));
-            bar.finish_and_clear();
-            Some(map.map_err(|error| about(file, error))?)
-        }
-        None => None,
-    };
-    let draw = || assur::plot::draw_hana(&robot.name, &[("phi = 0".to_owned(), &region)], map.as_ref());
+    let asked = AskedTilts { at: place, strokes: strokes.to_vec(), cells: wanted.then_some(cells) };
+    let bar = output::progress(Some(cells as u64), ROWS);
+    let found = HanaTilts::of(&robot, mode, &asked, |_| bar.inc(1)).map_err(|error| about(file, error))?;
+    bar.finish_and_clear();
+    let HanaTilts { here, supremum: best, against_strokes: curve, region, map } = &found;
+    let draw = || assur::plot::draw_hana(&robot.name, &[("phi = 0".to_owned(), region)], map.as_ref());
     Files::default().with_pictures(shown.svg.as_deref(), shown.png.as_deref(), draw)?.write()?;
     if shown.json {
-        let here = here.as_ref().map(|(at, found)| (*at, found.as_ref()));
-        return output::print(&hana_capability_json(here, best.as_ref(), map.as_ref(), &curve));
+        return output::print(&found.to_json());
     }
     let mut text = titled(&robot.name, "HANA");
     let angle = |value: f64| format!("{} {}", digits(angle_unit.from_rad(value), POSE_DIGITS), angle_unit.name());
-    match &here {
+    match here {
         Some((at, Some(found))) => {
             line(&mut text, format_args!("{STRONG}zeta at ({}) = {}{STRONG:#}", numbers(at), angle(found.zeta)));
             for (phi, stop) in found.range.iter().zip(found.stops) {
@@ -580,7 +564,7 @@ fn hana_capability(
         }
         None => line(&mut text, format_args!("the workspace of phi = 0 is empty")),
     }
-    for (half, zeta) in &curve {
+    for (half, zeta) in curve {
         let zeta = zeta.map_or("empty workspace".to_owned(), angle);
         line(&mut text, format_args!("strokes of half length {half}: largest {zeta}"));
     }
@@ -864,32 +848,20 @@ fn tilt(file: &Path, at: &[f64], tolerance: Option<f64>, shown: &Shown) -> Resul
 fn tilt_map(file: &Path, corners: [&[f64]; 2], sections: usize, cells: usize, shown: &Shown) -> Result<(), Failure> {
     let TripodFile { robot, angle_unit } = TripodFile::read(file)?;
     let (low, high): ([f64; 3], [f64; 3]) = (exactly("low", corners[0], file)?, exactly("high", corners[1], file)?);
-    for k in 0..3 {
-        if low[k] > high[k] {
-            let what = "map from --low to --high".to_owned();
-            return Err(about(file, SpatialError::Reversed { what, low: low[k], high: high[k] }));
-        }
-    }
-    let side = |k: usize| (high[k] - low[k]) / cells as f64;
-    let mut maps = Vec::new();
     let bar = output::progress(Some((sections * cells) as u64), ROWS);
-    for section in 0..sections {
-        let z = low[2] + (high[2] - low[2]) * section as f64 / (sections - 1).max(1) as f64;
-        let corner = Vector3::new(low[0] + 0.5 * side(0), low[1] + 0.5 * side(1), z);
-        let along = [Vector3::x() * side(0), Vector3::y() * side(1)];
-        let values = robot.tilt_map(&corner, along, [cells; 2], || bar.inc(1)).map_err(|error| about(file, error))?;
-        maps.push((z, values));
-    }
+    let found = TiltSections::of(&robot, low, high, [sections, cells], || bar.inc(1));
     bar.finish_and_clear();
-    let draw = || assur::plot::draw_tilt_sections(&robot.name, low, high, cells, &maps);
+    let found = found.map_err(|error| about(file, error))?;
+    let maps = &found.maps;
+    let draw = || assur::plot::draw_tilt_sections(&robot.name, low, high, cells, maps);
     Files::default().with_pictures(shown.svg.as_deref(), shown.png.as_deref(), draw)?.write()?;
     if shown.json {
-        return output::print(&tilt_map_json(low, high, cells, &maps));
+        return output::print(&found.to_json());
     }
     let mut text = titled(&robot.name, "three-legged robot");
     let [least, largest] = ["least", "largest"].map(|what| format!("{what} ({})", angle_unit.name()));
     let mut rows = table(&["z", "places within limits", &least, &largest]);
-    for (z, values) in &maps {
+    for (z, values) in maps {
         let known: Vec<f64> = values.iter().flatten().map(|&angle| angle_unit.from_rad(angle)).collect();
         let least = known.iter().copied().fold(f64::INFINITY, f64::min);
         let largest = known.iter().copied().fold(0.0, f64::max);
