@@ -17,6 +17,10 @@ fn spatial(criterion: &mut Criterion) {
         b.iter(|| hana.capability(black_box([-2.0, -12.0]), HanaMode::ABOVE));
     });
 
+    let reach = hana.reachable_workspace(HanaMode::ABOVE).expect("finite");
+    eprintln!("HANA, reachable: area {:.9}, {} pieces", reach.area, reach.components());
+    criterion.bench_function("reachable/HANA", |b| b.iter(|| hana.reachable_workspace(black_box(HanaMode::ABOVE))));
+
     let pose = TripodPose::new(Vector3::new(200.0, 260.0, 240.0), Vector3::new(0.17, 0.34, -0.085));
     let closed = CartesianRobot { d1: 600.0, d2: 720.0 };
     let inputs = closed.inverse(&pose).expect("within a quarter turn");
@@ -36,6 +40,9 @@ fn spatial(criterion: &mut Criterion) {
         let worst = answer.modes.iter().map(|mode| mode.residual).fold(0.0, f64::max);
         eprintln!("{name}: {expected} modes, worst residual {worst:.0e}");
         criterion.bench_function(&format!("forward/{name}"), |b| b.iter(|| robot.forward(black_box(&inputs))));
+        let exact = robot.certify(&inputs).expect("finite");
+        assert_eq!(exact.account, answer.account, "{name}");
+        criterion.bench_function(&format!("certify/{name}"), |b| b.iter(|| robot.certify(black_box(&inputs))));
     }
 
     let robot = Tripod::cartesian_example();
@@ -43,6 +50,10 @@ fn spatial(criterion: &mut Criterion) {
     let tilt = robot.tilt(&tip).expect("finite").expect("home is inside");
     eprintln!("tilt: {:.9} degrees", tilt.angle.to_degrees());
     criterion.bench_function("tilt", |b| b.iter(|| robot.tilt(black_box(&tip))));
+    let along = [Vector3::x() * 8.0, Vector3::y() * 8.0];
+    let map = || robot.tilt_map(black_box(&Vector3::new(0.0, 0.0, 160.0)), along, [50, 50], || ());
+    eprintln!("tilt map: {} of 2500 places within limits", map().expect("finite").iter().flatten().count());
+    criterion.bench_function("tilt map of 50 by 50", |b| b.iter(map));
     criterion.bench_function("tilt, proved to 1e-3", |b| b.iter(|| robot.tilt_bound(black_box(&tip), &tilt, 1e-3)));
 }
 
