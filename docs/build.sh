@@ -10,7 +10,7 @@ draw() { local name=$1; shift; "$assur" "$@" --svg "$pictures/$name.svg" >/dev/n
 
 draw modes forward examples/3-rpr.toml --inputs=14.98,15.38,12
 draw singularities singularities examples/3-rrr.toml --phi=17 --no-polynomial
-draw workspace workspace examples/workspaces/table1-1a.toml maximal --overlay constant:0
+draw workspace workspace examples/workspaces/table1-1a.toml constant --phi=0 --overlay constant:30 --overlay total:0:30
 draw coupler coupler examples/coupler.json
 draw nine-link group examples/nine-link.json
 draw seven-link group examples/seven-link.json
