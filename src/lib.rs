@@ -152,4 +152,4 @@ struct Readme;
 #[cfg(doctest)]
 #[doc = include_str!("../docs/src/first-answers.md")]
 #[doc = include_str!("../docs/src/motion.md")]
-struct Guide;
+struct GuideChapters;
