@@ -37,7 +37,7 @@ fn slack_agrees_with_the_inverse_kinematics() {
 #[test]
 fn brute_force_agrees_with_the_reference_data() {
     let data = golden();
-    let mut asked = 0;
+    let (mut asked, mut undecided) = (0, 0);
     for case in data["cases"].as_array().expect("a list") {
         let robot = golden_manipulator(&data, case["manipulator"].as_str().expect("a text"));
         let oracle = Oracle::of(&robot, None);
@@ -47,7 +47,10 @@ fn brute_force_agrees_with_the_reference_data() {
             let [x, y, inside, distance] = [0, 1, 2, 3].map(|k| point[k].as_f64().expect("a number"));
             let verdict = oracle.verdict_at([x, y], question, SAMPLES, 1e-12);
             let expected = if inside == 1.0 { Verdict::Inside } else { Verdict::Outside };
-            assert!(verdict == expected || distance.abs() < 1e-9, "case {}: {point}: {verdict:?}", case["index"]);
+            // Sampled orientations may miss where a thin interval ends; they must not contradict.
+            undecided += usize::from(verdict == Verdict::Near);
+            let right = verdict == expected || verdict == Verdict::Near || distance.abs() < 1e-9;
+            assert!(right, "case {}: {point}: {verdict:?}", case["index"]);
             asked += 1;
         }
         for set in case["theta_sets"].as_array().into_iter().flatten() {
@@ -69,7 +72,7 @@ fn brute_force_agrees_with_the_reference_data() {
             }
         }
     }
-    assert!(asked > 3000, "only {asked} points asked");
+    assert!(asked > 3000 && undecided * 200 < asked, "{asked} points asked, {undecided} undecided");
 }
 
 #[test]

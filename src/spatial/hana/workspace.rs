@@ -86,10 +86,10 @@ impl Hana {
     ///
     /// ```
     /// use assur::{Hana, HanaMode};
-    /// // Sliders 1 and 2 on opposite sides: the centre stays half-way between them, a straight boundary.
-    /// let robot = Hana::new(3.0, 12.0, 15.0, 15.0, [[-3.0, 3.0], [-2.0, 6.0], [0.0, 9.0]])?;
-    /// let region = robot.reachable_between("+-+".parse()?, [-1.0, 0.5])?;
-    /// assert!(region.loops[0].1.iter().any(|arc| arc.curve.name() == "line" && arc.active == ["leg 1 max", "leg 2 max"]));
+    /// let (robot, mode) = (Hana::example(), "+++".parse::<HanaMode>()?);
+    /// let level = robot.reachable_between(mode, [0.0, 0.0])?;
+    /// let tilting = robot.reachable_between(mode, [-0.3, 0.3])?;
+    /// assert!(level.area > 0.0 && tilting.area >= level.area);
     /// # Ok::<(), assur::SpatialError>(())
     /// ```
     pub fn reachable_between(&self, mode: HanaMode, [from, to]: [f64; 2]) -> Result<ArcRegion, SpatialError> {
