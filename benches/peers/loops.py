@@ -45,9 +45,9 @@ start = {(z^3 - P1#0)*(w^3 - P1#1), (z^3 - P2#0)*(w^3 - P2#1)}
 cube = c -> apply(3, k -> (c^(1/3)) * exp(2*pi*ii*k/3))
 starts = flatten apply(cube(P1#0), x -> apply(cube(P2#1), y -> {x, y})) | flatten apply(cube(P2#0), x -> apply(cube(P1#1), y -> {x, y}))
 scan(PROBLEMS, c -> (
-    target = {form(c#0), form(c#1)};
+    goal = {form(c#0), form(c#1)};
     best = infinity;
-    for k from 1 to RUNS do (t = elapsedTiming(found = track(start, target, starts, gamma => exp(0.7*ii))); best = min(best, t#0));
+    for k from 1 to RUNS do (t = elapsedTiming(found = track(start, goal, starts, gamma => exp(0.7*ii))); best = min(best, t#0));
     << toExternalString best << " " << #select(found, p -> status p === Regular) << endl))
 """
 
