@@ -141,6 +141,7 @@ export class App {
 
   /** @param {string} title @param {string} below */
   caption(title, below) {
+    if (byId("caption").textContent === title + below) return;
     this.title = title;
     byId("caption").replaceChildren(title, html("small", {}, [below]));
     document.title = `${title} · assur`;
