@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use super::drawing::Grid;
 
 /// Steps in a full circle: it looks round on any screen.
-const CIRCLE_STEPS: f64 = 96.0;
+const CIRCLE_STEPS: f64 = 180.0;
 /// Points along other curves: so many in a length of the mechanism's size, and no fewer than that in any, since short ones bend as well.
 const CURVE_POINTS: f64 = 40.0;
 const FEWEST_POINTS: usize = 14;
@@ -81,7 +81,7 @@ fn steps(arc: &BoundaryArc, size: f64) -> usize {
     match &arc.curve {
         ArcCurve::Line => 1,
         ArcCurve::Circle { start_angle, end_angle, .. } => {
-            ((end_angle - start_angle).abs() / std::f64::consts::TAU * CIRCLE_STEPS).ceil().max(1.0) as usize
+            ((end_angle - start_angle).abs() / std::f64::consts::TAU * CIRCLE_STEPS).ceil().max(4.0) as usize
         }
         ArcCurve::Coupler(_) | ArcCurve::Ellipse(_) => {
             ((arc.length() / size * CURVE_POINTS).ceil() as usize).clamp(FEWEST_POINTS, MOST_POINTS)
