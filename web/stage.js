@@ -1,6 +1,6 @@
 // The drawing area: where it looks, what is on it, what is taken hold of.
 
-import { LAYERS, paths } from "./marks.js";
+import { GHOST_LAYERS, LAYERS, ghostly, paths } from "./marks.js";
 import { set, svg } from "./svg.js";
 
 /**
@@ -119,12 +119,14 @@ export class Stage {
 
   /** @param {SVGGElement} parent @param {Assembly[]} shown @param {Assembly[]} all */
   fill(parent, shown, all) {
+    const ghosts = parent === this.ghosts;
+    const layers = ghosts ? GHOST_LAYERS : LAYERS;
     while (parent.children.length > shown.length) parent.lastChild?.remove();
     shown.forEach((assembly, k) => {
       let group = parent.children[k];
       if (!group) {
         group = svg("g", {}, parent);
-        for (const layer of LAYERS) svg("path", { class: layer }, group);
+        for (const layer of layers) svg("path", { class: layer }, group);
         group.addEventListener("click", () => {
           const number = Number(group.getAttribute("data-number"));
           if (group.classList.contains("ghost")) this.on.take(number);
@@ -133,8 +135,9 @@ export class Stage {
       set(group, "class", assembly.ghost ? "mode ghost" : "mode held-mode");
       set(group, "data-tone", String(assembly.tone));
       set(group, "data-number", String(all.indexOf(assembly)));
-      const d = paths(assembly.marks, this.place);
-      LAYERS.forEach((layer, at) => set(group.children[at], "d", d[layer] ?? ""));
+      /** @type {Record<string, string | undefined>} */
+      const d = ghosts ? ghostly(paths(assembly.marks, this.place)) : paths(assembly.marks, this.place);
+      layers.forEach((layer, at) => set(group.children[at], "d", d[layer] ?? ""));
     });
   }
 
