@@ -354,7 +354,7 @@ export class ManipulatorPage {
       const ends = [.../** @type {NodeListOf<HTMLInputElement>} */ (row.querySelectorAll(".ends input"))];
       ends.forEach((end, side) => {
         const bound = Number((side === 0 ? low : high).toPrecision(7));
-        end.placeholder = String(Number(bound.toPrecision(3)));
+        end.placeholder = "none";
         if (document.activeElement !== end) end.value = actuator.limited ? String(bound) : "";
       });
     });

@@ -186,6 +186,7 @@ const tests = {
     assert.equal(beyond.event, "meeting");
     await settled(page);
     assert.ok(await page.locator("#notice").isVisible());
+    assert.ok((await page.locator("#stage .over .meeting").count()) > 0);
     await picture(page, "meeting");
     const back = await pull(start);
     back.pose.forEach((v, k) => assert.ok(Math.abs(v - before.pose[k]) < 1e-9));
@@ -300,6 +301,7 @@ const tests = {
   },
 
   async "singular positions and a proof"(page) {
+    await startFrom(page, "3-RPR");
     await page.keyboard.press("l");
     await settled(page);
     await page.click("#prove");
@@ -360,6 +362,11 @@ const tests = {
     await page.selectOption("#workspace", "");
     await settled(page);
     after.mode.pose.forEach((v, k) => assert.ok(Math.abs(v - before.mode.pose[k]) < 1e-9));
+    // A link that was sent shows it in another window.
+    const other = await open(page.url());
+    assert.deepEqual((await state(other)).model, after.model);
+    assert.equal(await ghosts(other), await ghosts(page));
+    await other.close();
   },
 
   async "model, SVG and PNG are exported"(page) {
