@@ -20,11 +20,25 @@ const ROOM: f64 = 0.06;
 /// A curve: its name and its points; gaps where there is no value.
 pub type NamedCurve = (String, Vec<(f64, Option<f64>)>);
 
+/// Beyond this many times the third quartile of all sizes a curve runs off to a pole, and is cut.
+const POLE: f64 = 8.0;
+
+/// The largest size that is drawn.
+fn clipped_at(curves: &[NamedCurve]) -> f64 {
+    let values = curves.iter().flat_map(|(_, points)| points).filter_map(|(_, y)| *y);
+    let mut sizes: Vec<f64> = values.map(f64::abs).filter(|size| size.is_finite()).collect();
+    sizes.sort_by(f64::total_cmp);
+    let quartile = sizes.get(sizes.len() * 3 / 4).copied().unwrap_or(0.0);
+    if quartile > 0.0 { POLE * quartile } else { sizes.last().copied().unwrap_or(0.0) }
+}
+
 /// Curves over one quantity, the first axis named first; values that are not finite are gaps.
 pub fn draw_curves(title: &str, subtitle: &str, axes: [&str; 2], curves: &[NamedCurve]) -> String {
+    let highest = clipped_at(curves);
+    let shown = |y: &f64| y.abs() <= highest;
     let known = || {
         let points = curves.iter().flat_map(|(_, points)| points);
-        points.filter_map(|&(x, y)| y.filter(|y| y.is_finite()).map(|y| Vector2::new(x, y)))
+        points.filter_map(|&(x, y)| y.filter(shown).map(|y| Vector2::new(x, y)))
     };
     let infinite = Vector2::repeat(f64::INFINITY);
     let (low, high) = known().fold((infinite, -infinite), |(l, h), p| (l.inf(&p), h.sup(&p)));
@@ -55,7 +69,7 @@ pub fn draw_curves(title: &str, subtitle: &str, axes: [&str; 2], curves: &[Named
     let (mut inside, mut legend) = (Group::new(), Group::new());
     for (k, (name, points)) in curves.iter().enumerate() {
         let colour = COLOURS[k % COLOURS.len()];
-        for run in points.split(|(_, y)| y.is_none_or(|y| !y.is_finite())).filter(|run| !run.is_empty()) {
+        for run in points.split(|(_, y)| y.is_none_or(|y| !shown(&y))).filter(|run| !run.is_empty()) {
             let data: Vec<String> =
                 run.iter().filter_map(|&(px, py)| py.map(|py| format!("{:.2},{:.2}", x(px), y(py)))).collect();
             let curve = Polyline::new().set("points", data.join(" ")).set("fill", "none").set("stroke", colour);

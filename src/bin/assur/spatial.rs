@@ -744,6 +744,7 @@ fn determinant(
             Some((_, 0.0)) => line(&mut text, format_args!("  det J = 0 throughout")),
             Some((at, value)) => {
                 let value = digits(value, SIDE_DIGITS);
+                let at = digits(at, SIDE_DIGITS);
                 line(&mut text, format_args!("  largest of those taken: det J = {value} at {at} deg"));
             }
             None => line(&mut text, format_args!("  singular of type 1 throughout")),
@@ -752,10 +753,10 @@ fn determinant(
             .collect::<Vec<_>>()
             .windows(2)
             .filter(|pair| pair[0].1 * pair[1].1 < 0.0)
-            .map(|pair| format!("{} to {}", pair[0].0, pair[1].0))
+            .map(|pair| format!("{} and {}", digits(pair[0].0, SIDE_DIGITS), digits(pair[1].0, SIDE_DIGITS)))
             .collect();
         if !zeros.is_empty() {
-            line(&mut text, format_args!("  changes sign between {} deg", zeros.join(", ")));
+            line(&mut text, format_args!("  changes sign, by a zero or a pole, between {} deg", zeros.join(", ")));
         }
     }
     output::print(&text)
