@@ -192,6 +192,8 @@ fn robots_are_drawn_and_checked_and_determinants_are_curves() {
     let table = folder.join("determinant.csv");
     let table = table.to_str().expect("plain");
     drawn(&["tripod", "determinant", "inclined", "--points=91", "--csv", table], "determinant.svg");
+    assert!(drawn(&["tripod", "determinant", "inclined", "--over-angle"], "angle.svg").contains("angle between two"));
+    assert!(drawn(&["hana", "capability", &hana, "--strokes=1,2,3,4"], "curve.svg").contains("half length"));
     let rows = std::fs::read_to_string(table).expect("is written");
     assert_eq!((rows.lines().count(), rows.lines().next()), (92, Some("elevation,between,det_J_1,det_J_2,det_J_3")));
     let curve = json(&["tripod", "determinant", "upright", "--pose=0,0,0,10,5,0", "--points=3", "--json"]);

@@ -85,9 +85,9 @@ pub(crate) enum HanaCommand {
         shown: Shown,
     },
     /// How far the platform tilts: at a place, over the workspace, against the strokes.
-    #[command(
-        after_help = "Example:  assur hana capability examples/hana.toml --at=-2,-12 --strokes=1,2,3,4,5 --svg map.svg"
-    )]
+    #[command(after_help = "The picture is a map over the workspace; with --strokes, the curve against them.\n\
+        Example:  assur hana capability examples/hana.toml --at=-2,-12 --svg map.svg\n\
+        Curve:    assur hana capability examples/hana.toml --strokes=0.5,1,1.5,2,2.5,3,3.5,4,4.5,5 --svg curve.svg")]
     Capability {
         /// Model file, TOML or JSON; - is standard input.
         model: PathBuf,
@@ -324,7 +324,11 @@ fn hana_workspace(
             ("reachable", region.map_err(|error| about(file, error))?)
         }
     };
-    let draw = || assur::plot::draw_hana(&robot.name, &[(name.to_owned(), &region)], None);
+    let named = match kind {
+        WorkspaceKind::Constant => format!("phi = {} {}", digits(phi, DRAWN_DIGITS), angle_unit.name()),
+        WorkspaceKind::Reachable => name.to_owned(),
+    };
+    let draw = || assur::plot::draw_hana(&robot.name, &[(named.clone(), &region)], None);
     Files::default().with_pictures(shown.svg.as_deref(), shown.png.as_deref(), draw)?.write()?;
     if shown.json {
         return output::print(&hana_workspace_json(name, &region));
@@ -365,13 +369,22 @@ fn hana_capability(
     let HanaFile { robot, angle_unit } = HanaFile::read(file)?;
     let mode = hana_mode(mode, file)?;
     let place: Option<[f64; 2]> = optional("at", at, file)?;
-    let wanted = place.is_none() || shown.svg.is_some() || shown.png.is_some();
+    let drawn = strokes.is_empty() && (shown.svg.is_some() || shown.png.is_some());
+    let wanted = place.is_none() || drawn;
     let asked = AskedTilts { at: place, strokes: strokes.to_vec(), cells: wanted.then_some(cells) };
     let bar = output::progress(Some(cells as u64), ROWS);
     let found = HanaTilts::of(&robot, mode, &asked, |_| bar.inc(1)).map_err(|error| about(file, error))?;
     bar.finish_and_clear();
     let HanaTilts { here, supremum: best, against_strokes: curve, region, map } = &found;
-    let draw = || assur::plot::draw_hana(&robot.name, &[("phi = 0".to_owned(), region)], map.as_ref());
+    let title = if robot.name.is_empty() { "HANA" } else { &robot.name };
+    let draw = || {
+        if strokes.is_empty() {
+            return assur::plot::draw_hana(&robot.name, &[("phi = 0".to_owned(), region)], map.as_ref());
+        }
+        let points = curve.iter().map(|&(half, zeta)| (half, zeta.map(f64::to_degrees))).collect();
+        let axes = ["half length of the strokes", "largest capability ζ (deg)"];
+        assur::plot::draw_curves(title, "rotational capability at most", axes, &[(format!("mode {mode}"), points)])
+    };
     Files::default().with_pictures(shown.svg.as_deref(), shown.png.as_deref(), draw)?.write()?;
     if shown.json {
         return output::print(&found.to_json());

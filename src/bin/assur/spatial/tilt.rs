@@ -6,7 +6,7 @@ use assur::exchange::{
     AngleUnit, TiltSections, TripodFile, tilt_json, tilt_limit_name, tripod_determinant_csv, tripod_determinant_json,
 };
 use assur::nalgebra::Vector3;
-use assur::{SpatialError, TripodDesign};
+use assur::{DeterminantPoint, SpatialError, TripodDesign};
 
 use super::tripod::{DesignName, tripod_pose};
 use super::{ROWS, about, exactly, titled};
@@ -24,10 +24,11 @@ pub(super) fn tilt(file: &Path, at: &[f64], tolerance: Option<f64>, shown: &Show
         return Err(about(file, "a picture is of a map: give --low and --high in place of --at"));
     }
     let found = robot.tilt(&place).map_err(failed)?;
-    let tolerance = tolerance.map_or(TOLERANCE, |angle| angle_unit.to_rad(angle));
-    if tolerance.is_nan() || tolerance <= 0.0 {
-        return Err(about(file, SpatialError::NotPositive { what: "tolerance".to_owned(), value: tolerance }));
+    let given = tolerance.unwrap_or_else(|| angle_unit.from_rad(TOLERANCE));
+    if given.is_nan() || given <= 0.0 {
+        return Err(about(file, SpatialError::NotPositive { what: "tolerance".to_owned(), value: given }));
     }
+    let tolerance = angle_unit.to_rad(given);
     let proved = match &found {
         Some(found) => robot.tilt_bound(&place, found, tolerance).map_err(failed)?,
         None => None,
@@ -90,6 +91,7 @@ pub(super) fn determinant(
     distances: [f64; 2],
     poses: &[String],
     (range, points): ([f64; 2], usize),
+    over_angle: bool,
     csv: Option<&Path>,
     shown: &Shown,
 ) -> Result<(), Failure> {
@@ -114,7 +116,8 @@ pub(super) fn determinant(
     }
     let draw = || {
         let named = curves.iter().zip(poses).map(|((_, points), given)| {
-            (given.clone(), points.iter().map(|p| (degrees.from_rad(p.elevation), p.determinant)).collect())
+            let across = |p: &DeterminantPoint| degrees.from_rad(if over_angle { p.between } else { p.elevation });
+            (given.clone(), points.iter().map(|p| (across(p), p.determinant)).collect())
         });
         let what = if design == TripodDesign::Inclined { "rails" } else { "platform axes" };
         let title = format!(
@@ -122,7 +125,8 @@ pub(super) fn determinant(
             if design == TripodDesign::Inclined { "inclined" } else { "raised" }
         );
         let subtitle = "one curve a pose: x, y, z and rotation vector in degrees";
-        let axes = [&*format!("elevation of the {what} (deg)"), "det J"];
+        let of = if over_angle { "angle between two" } else { "elevation" };
+        let axes = [&*format!("{of} of the {what} (deg)"), "det J"];
         assur::plot::draw_curves(&title, subtitle, axes, &named.collect::<Vec<_>>())
     };
     files.with_pictures(shown.svg.as_deref(), shown.png.as_deref(), draw)?.write()?;

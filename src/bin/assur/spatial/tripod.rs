@@ -56,6 +56,7 @@ pub(crate) enum TripodCommand {
     #[command(
         after_help = "inclined: rails at the elevation, figure 8(a). upright: platform axes at the elevation, figure 8(b). Angles in degrees, JSON and CSV in radians.\n\
         Example:  assur tripod determinant inclined --svg determinant.svg\n\
+        Example:  assur tripod determinant inclined --over-angle --svg angle.svg\n\
         Example:  assur tripod determinant upright --pose=0,0,0,10,5,0 --pose=0,0,0,20,10,0 --csv determinant.csv"
     )]
     Determinant {
@@ -80,6 +81,9 @@ pub(crate) enum TripodCommand {
         /// Elevations.
         #[arg(long, value_name = "N", default_value_t = 181, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
         points: u32,
+        /// Draws over the angle between any two of the rails or axes, in place of the elevation.
+        #[arg(long)]
+        over_angle: bool,
         /// Writes the curves as CSV.
         #[arg(long, value_name = "FILE")]
         csv: Option<PathBuf>,
@@ -160,8 +164,8 @@ pub(crate) fn tripod(command: TripodCommand) -> Result<(), Failure> {
         }
         TripodCommand::Inverse { model, pose, direction, shown } => pointing(&model, &pose, &direction, &shown),
         TripodCommand::Forward { model, inputs, certify, shown } => tripod_forward(&model, &inputs, certify, &shown),
-        TripodCommand::Determinant { design, d1, d2, pose, from, to, points, csv, shown } => {
-            determinant(design, [d1, d2], &pose, ([from, to], points as usize), csv.as_deref(), &shown)
+        TripodCommand::Determinant { design, d1, d2, pose, from, to, points, over_angle, csv, shown } => {
+            determinant(design, [d1, d2], &pose, ([from, to], points as usize), over_angle, csv.as_deref(), &shown)
         }
         TripodCommand::Velocity { model, pose, rates, accelerations, json } => {
             tripod_velocity(&model, &pose, [&rates, &accelerations], json)
