@@ -512,6 +512,18 @@ fn determinant_curves_are_those_of_the_jacobian_and_the_closed_forms() {
 }
 
 #[test]
+fn plane_angles_are_those_in_print() {
+    let case = &golden()["tripod6"]["cartesian"];
+    let robot = Tripod::cartesian(600.0, 720.0).expect("sound");
+    let angles = robot.plane_angles(&pose(case)).expect("regular");
+    for (angle, (gamma, rho)) in angles.iter().zip(numbers(&case["gamma"]).iter().zip(numbers(&case["rho"]).chunks(2)))
+    {
+        assert!((angle - gamma).abs() < 1e-9, "{angles:?}");
+        assert!((angle.tan() - (rho[1] - rho[0]) / 120.0).abs() < 1e-9, "{angles:?}");
+    }
+}
+
+#[test]
 fn planes_that_do_not_turn_lose_no_assembly() {
     // Two of the planes' normals are square to each other then, and an equation vanishes at a root.
     let (general, closed) = (Tripod::cartesian(600.0, 720.0).expect("sound"), CartesianRobot { d1: 600.0, d2: 720.0 });

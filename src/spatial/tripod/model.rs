@@ -323,12 +323,13 @@ impl Tripod {
         Ok(inputs)
     }
 
-    /// The angles of the legs' planes, in radians, from where both sliders of the leg are level.
+    /// The angles of the legs' planes, in radians, from where both sliders of the leg are level; positive where the slider farther along `w × u` is ahead along `u`, as the paper's `gamma`.
     pub fn plane_angles(&self, pose: &TripodPose) -> Result<[f64; 3], TripodError> {
         let mut angles = [0.0; 3];
         for (k, leg) in self.legs.iter().enumerate() {
             let plane = leg.plane(pose, k + 1)?;
-            angles[k] = (plane.normal.dot(&leg.across()) / plane.along).atan();
+            // Not -0 where they are level.
+            angles[k] = 0.0 - (plane.normal.dot(&leg.across()) / plane.along).atan();
         }
         Ok(angles)
     }
