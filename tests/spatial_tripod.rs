@@ -480,8 +480,8 @@ fn determinant_curves_are_those_of_the_jacobian_and_the_closed_forms() {
         assert!((point.determinant.expect("regular") - closed).abs() < 1e-9 * 120.0_f64.powi(3), "{point:?} {closed}");
     }
     let level = TripodDesign::Upright.determinant_curve(600.0, 720.0, &level, [0.0, 1.4], 40).expect("sound");
-    let small = |e: f64| 1e-12 * 120.0_f64.powi(3) / e.cos().powi(6);
-    assert!(level.iter().all(|point| point.determinant.expect("regular").abs() < small(point.elevation)));
+    // The turning axes are horizontal: zero, and said to be zero.
+    assert!(level.iter().all(|point| point.determinant == Some(0.0)), "{level:?}");
     // 110° between axes at an elevation of 18.94°, as the paper's text has it.
     let angle = |degrees: f64| {
         let range = [degrees.to_radians(), 1.0];
@@ -508,5 +508,38 @@ fn determinant_curves_are_those_of_the_jacobian_and_the_closed_forms() {
         let scale: f64 = velocity.jacobian.row_iter().map(|row| row.norm()).product();
         let (short, long) = (robot.jacobian_determinant(&pose).expect("regular"), velocity.jacobian.determinant());
         assert!((short - long).abs() < 1e-11 * scale, "{short} {long} {scale}");
+    }
+}
+
+#[test]
+fn plane_angles_are_those_in_print() {
+    let case = &golden()["tripod6"]["cartesian"];
+    let robot = Tripod::cartesian(600.0, 720.0).expect("sound");
+    let angles = robot.plane_angles(&pose(case)).expect("regular");
+    for (angle, (gamma, rho)) in angles.iter().zip(numbers(&case["gamma"]).iter().zip(numbers(&case["rho"]).chunks(2)))
+    {
+        assert!((angle - gamma).abs() < 1e-9, "{angles:?}");
+        assert!((angle.tan() - (rho[1] - rho[0]) / 120.0).abs() < 1e-9, "{angles:?}");
+    }
+}
+
+#[test]
+fn planes_that_do_not_turn_lose_no_assembly() {
+    // Two of the planes' normals are square to each other then, and an equation vanishes at a root.
+    let (general, closed) = (Tripod::cartesian(600.0, 720.0).expect("sound"), CartesianRobot { d1: 600.0, d2: 720.0 });
+    let mut random = Random::new(51);
+    for trial in 0..300 {
+        let mut inputs: [f64; 6] = std::array::from_fn(|_| random.between(-200.0, 300.0));
+        for leg in (0..3).filter(|leg| ((trial % 7) + 1) >> leg & 1 == 1) {
+            inputs[2 * leg + 1] = inputs[2 * leg];
+        }
+        let expected = closed.forward(&inputs).expect("T = 0 is regular");
+        let answer = general.forward(&inputs).expect("finite");
+        assert_eq!((answer.modes.len(), answer.spurious.len(), answer.account.real), (4, 4, 4), "{inputs:?}");
+        let found = answer.modes.iter().any(|mode| {
+            apart(&mode.pose.rotation, &expected.rotation) < 1e-9
+                && (mode.pose.position - expected.position).norm() < 1e-6
+        });
+        assert!(found, "{inputs:?}");
     }
 }
