@@ -15,10 +15,10 @@ const POLYGON: usize = 257;
 const CHORD: f64 = 1e-4;
 
 /// A region as polygons.
-struct Polygons(Vec<Vec<[f64; 2]>>);
+pub struct Polygons(Vec<Vec<[f64; 2]>>);
 
 impl Polygons {
-    fn of(region: &Region) -> Self {
+    pub fn of(region: &Region) -> Self {
         let outline = |one: &assur::workspace::Loop| {
             one.arcs
                 .iter()
@@ -43,7 +43,7 @@ impl Polygons {
     }
 
     /// How often the loops run around a point.
-    fn winding(&self, [x, y]: [f64; 2]) -> i32 {
+    pub fn winding(&self, [x, y]: [f64; 2]) -> i32 {
         let mut turns = 0;
         for points in &self.0 {
             for (p, q) in points.iter().zip(points.iter().cycle().skip(1)) {
@@ -59,7 +59,7 @@ impl Polygons {
     }
 
     /// The distance of a point from the nearest edge.
-    fn distance(&self, [x, y]: [f64; 2]) -> f64 {
+    pub fn distance(&self, [x, y]: [f64; 2]) -> f64 {
         let mut least = f64::INFINITY;
         for points in &self.0 {
             for (p, q) in points.iter().zip(points.iter().cycle().skip(1)) {
