@@ -137,6 +137,14 @@ pub enum WorkspaceError {
         /// The kind asked for.
         kind: &'static str,
     },
+    /// Two parts of the configuration space may be one: at an orientation a slice of it cannot be followed.
+    #[error(
+        "assemblies not decided: near phi = {phi} rad digits run out, and parts of the configuration space cannot be followed"
+    )]
+    AssembliesUndecided {
+        /// The orientation, radians.
+        phi: f64,
+    },
     /// The pose that names an assembly is none: a leg does not allow it.
     #[error("leg {leg}: does not allow the pose of the assembly")]
     PoseNotAllowed {

