@@ -127,16 +127,6 @@ pub enum WorkspaceError {
         /// The joint whose limits would bound it, from 1.
         joint: usize,
     },
-    /// With both modes, ranges of the first and of the last joint bound the orientations of a leg by curves that the kind of workspace does not cover.
-    #[error(
-        "leg {leg}: {kind} workspaces of a leg with ranges of joints 1 and 3 are covered for one working mode, not for both"
-    )]
-    ModesCross {
-        /// Leg, from 1.
-        leg: usize,
-        /// The kind asked for.
-        kind: &'static str,
-    },
     /// Two parts of the configuration space may be one: at an orientation a slice of it cannot be followed.
     #[error(
         "assemblies not decided: near phi = {phi} rad digits run out, and parts of the configuration space cannot be followed"

@@ -1,8 +1,8 @@
 //! Regions against brute force: both sides of every arc, random lines across them, loops that close, areas, laws.
 
 use assur::nalgebra::{Rotation2, Vector2};
-use assur::workspace::{Isolated, Region, WorkspaceError, WorkspaceKind};
-use assur::{Manipulator, Placement};
+use assur::workspace::{ArcCurve, Isolated, Region, WorkspaceKind, WorkspaceModes};
+use assur::{JointKind, Manipulator, Placement};
 
 use crate::membership::{NEAR, kind_of, modes_of, written};
 use crate::models::{Case, TROUBLES, Trouble, questions, random_case, scale};
@@ -205,7 +205,7 @@ fn touches_isolated(region: &Region, at: [f64; 2], within: f64) -> bool {
 
 /// Asks the kinds of an index range of many random manipulators.
 fn check(kinds: std::ops::Range<usize>, cases: u64) {
-    let (mut asked, mut refused, mut empty) = (0, 0, 0);
+    let (mut asked, mut empty) = (0, 0);
     let mut wrong: Vec<String> = Vec::new();
     for number in 0..cases * scale() {
         let case = random_case(number, TROUBLES[(number / 10 % 10) as usize]);
@@ -217,10 +217,6 @@ fn check(kinds: std::ops::Range<usize>, cases: u64) {
             asked += 1;
             let workspace = match case.robot.workspace(&kind, &modes_of(&case)) {
                 Ok(workspace) => workspace,
-                Err(WorkspaceError::ModesCross { .. }) => {
-                    refused += 1;
-                    continue;
-                }
                 Err(error) => {
                     wrong.push(format!("{}, {kind:?}: {error}\n{}", case.kind, written(&case)));
                     continue;
@@ -242,13 +238,10 @@ fn check(kinds: std::ops::Range<usize>, cases: u64) {
     let first = wrong[..wrong.len().min(3)].join("\n\n");
     assert!(
         wrong.is_empty(),
-        "{} of {asked} workspaces wrong ({refused} refused, {empty} empty); the first:\n{first}",
+        "{} of {asked} workspaces wrong ({empty} empty); the first:\n{first}",
         wrong.len()
     );
-    assert!(
-        4 * empty < 3 * asked && 10 * refused < asked,
-        "{empty} of {asked} empty, {refused} refused: not much of a test"
-    );
+    assert!(4 * empty < 3 * asked, "{empty} of {asked} empty: not much of a test");
 }
 
 #[test]
@@ -271,6 +264,42 @@ fn total_orientation_and_dextrous_workspaces_are_those_of_brute_force() {
     check(3..5, 100);
 }
 
+/// With ranges of joints 1 and 3 and both modes, a leg's orientations are bounded by coupler curves of its own.
+#[test]
+fn total_orientation_workspaces_of_legs_whose_modes_differ_are_those_of_brute_force() {
+    let (mut asked, mut full, mut coupled) = (0, 0, 0);
+    for number in 0..10 * scale() {
+        let mut case = random_case(number, Trouble::None);
+        let mut r = Random::new(0xc0de + number);
+        for leg in &mut case.robot.legs {
+            for joint in [0, 2] {
+                if leg.joints[joint] == JointKind::Revolute {
+                    let from = r.between(-3.0, 3.0);
+                    leg.limits[joint] = Some([from, from + r.between(3.0, 5.8)]);
+                }
+            }
+        }
+        let oracle = Oracle::of(&case.robot, None);
+        let question = questions(&case, number)[3];
+        for (index, question) in [(3, question), (4, Question::dextrous())] {
+            let kind = kind_of(question, index);
+            let t0 = std::time::Instant::now();
+            let region = case.robot.workspace(&kind, &WorkspaceModes::Both).expect("is covered").region;
+            eprintln!("{number} {kind:?} {:?} loops {} arcs {}", t0.elapsed(), region.loops.len(), region.loops.iter().map(|l| l.arcs.len()).sum::<usize>());
+            let t0 = std::time::Instant::now();
+            let faults = faults(&oracle, question, &region, &mut r);
+            eprintln!("{:?}", t0.elapsed());
+            assert!(faults.is_empty(), "{}, {kind:?}:\n  {}\n{}", case.kind, faults.join("\n  "), written(&case));
+            let mut arcs = region.loops.iter().flat_map(|each| &each.arcs);
+            asked += 1;
+            full += usize::from(!region.loops.is_empty());
+            coupled +=
+                usize::from(arcs.any(|arc| matches!(arc.curve, ArcCurve::Coupler(_) | ArcCurve::Ellipse(_))));
+        }
+    }
+    assert!(full * 5 > asked && coupled > 0, "{full} of {asked} not empty, {coupled} with coupler curves");
+}
+
 /// The manipulator moved, turned and scaled.
 fn moved(robot: &Manipulator, turn: f64, shift: Vector2<f64>, scale: f64) -> Manipulator {
     let rotation = Rotation2::new(turn);
@@ -281,7 +310,7 @@ fn moved(robot: &Manipulator, turn: f64, shift: Vector2<f64>, scale: f64) -> Man
         leg.platform.at *= scale;
         leg.links.iter_mut().for_each(|link| link.at *= scale);
         for (limit, kind) in leg.limits.iter_mut().zip(leg.joints) {
-            if let (Some(ends), assur::JointKind::Prismatic) = (limit, kind) {
+            if let (Some(ends), JointKind::Prismatic) = (limit, kind) {
                 *ends = ends.map(|end| end * scale);
             }
         }

@@ -18,6 +18,7 @@ use super::coupled::EDGE;
 use super::crossings::{Chord, Common, chords, meet, nearest};
 use super::curves::{AROUND, Course, Curves, Source, active_of, outside};
 use super::edges;
+use super::every::{self, Named};
 use super::surface::{Form, Place, Slope, quarter};
 use crate::linkage::Dyad;
 use crate::plane::{Carrier, Meeting, PhiRange, product};
@@ -144,10 +145,24 @@ pub(super) struct Tracer<'a> {
     pub(super) folds: Vec<Piece>,
     /// Whether only some of the places reached are asked for: what bounds others is nothing then.
     partial: bool,
+    /// What candidates are called whose sides alone decide; empty where the fold rule does.
+    named: Vec<Named>,
     size: f64,
 }
 
 impl<'a> Tracer<'a> {
+    /// Candidates that the fold rule has no part in.
+    pub(super) fn of_candidates(reach: &'a Reach, curves: Curves, named: Vec<Named>) -> Self {
+        let mut out =
+            Self { reach, range: None, curves, folds: Vec::new(), partial: false, named, size: reach.size() };
+        out.merge_vertices();
+        for curve in (0..out.curves.curves.len()).filter(|&curve| !out.named[curve].double).collect::<Vec<_>>() {
+            let pieces = out.pieces(curve);
+            out.folds.extend(pieces);
+        }
+        out
+    }
+
     pub(super) fn new(reach: &'a Reach, range: Option<&PhiRange>) -> Self {
         let range = range.filter(|range| !range.is_full());
         let mut out = Self {
@@ -156,6 +171,7 @@ impl<'a> Tracer<'a> {
             curves: Curves::new(reach, range),
             folds: Vec::new(),
             partial: false,
+            named: Vec::new(),
             size: reach.size(),
         };
         out.merge_vertices();
@@ -258,6 +274,9 @@ impl<'a> Tracer<'a> {
             Course::Coupled { .. } => piece.part(part).clamp(EDGE, 1.0 - EDGE),
             _ => piece.part(part),
         };
+        if !self.named.is_empty() {
+            return every::look(&self.curves, &self.named, piece.curve, t);
+        }
         let point = self.curves.at(piece.curve, t);
         let at = point.at;
         let tol = VALID * self.size;
@@ -497,6 +516,7 @@ impl<'a> Tracer<'a> {
             let Some(look) = look else { continue };
             match standing {
                 Standing::Boundary(on_left) => boundary.push((*piece, on_left, look)),
+                Standing::Separating(_) if !self.named.is_empty() => {}
                 Standing::Separating(on_left) => out.separating.push(self.arc(piece, on_left, &look)),
                 Standing::Isolated => out.isolated.push(self.arc(piece, true, &look)),
                 Standing::Nothing => {}
