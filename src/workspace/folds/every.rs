@@ -91,7 +91,13 @@ fn candidates(reach: &Reach, bounds: &[Bound], range: Option<&PhiRange>) -> (Cur
     for one in 0..surfaces.len() {
         for other in one + 1..surfaces.len() {
             let Some(pair) = crossed(&surfaces[one], &surfaces[other]) else { continue };
-            let (curve, _) = Coupled::new(surfaces[one].form, surfaces[other].form);
+            let (curve, frozen) = Coupled::new(surfaces[one].form, surfaces[other].form);
+            // Equal links make a parallelogram at one orientation: both limits hold all along a circle.
+            for phi in frozen.into_iter().filter(|&phi| range.is_none_or(|range| range.contains(phi))) {
+                all.push(Course::Upright { on: surfaces[one].form.carrier(direction(phi)), surface: 0 });
+                let active = pair.iter().map(Limit::active).collect();
+                named.push(Named { active, pair: None, double: false });
+            }
             let Some(curve) = curve else { continue };
             let coupled = all.coupled.len();
             all.coupled.push((curve, [one, other]));
@@ -100,7 +106,9 @@ fn candidates(reach: &Reach, bounds: &[Bound], range: Option<&PhiRange>) -> (Cur
             for branch in curve.branches() {
                 let own = all.push(Course::Coupled { coupled, branch });
                 let double = all.curves[..first].iter().any(|other| match other.course {
-                    Course::Upright { on, .. } => (WITHIN.iter()).all(|&t| on.distance(all.at(own, t).at).abs() <= ON * size),
+                    Course::Upright { on, .. } => {
+                        (WITHIN.iter()).all(|&t| on.distance(all.at(own, t).at).abs() <= ON * size)
+                    }
                     _ => false,
                 });
                 named.push(Named { active: pair.iter().map(Limit::active).collect(), pair: Some(pair), double });
@@ -148,7 +156,7 @@ fn mark(all: &mut Curves, coupled: usize, first: usize, place: &Place, phi: f64)
     let Some(k) = branches.into_iter().position(|own| own == branch).filter(|_| off <= near) else { return };
     let vertex = all.vertex(place.c);
     all.mark(first + k, t, vertex);
-    for curve in 0..first {
+    for curve in 0..all.curves.len() {
         if let Course::Upright { on, .. } = all.curves[curve].course
             && on.distance(place.c).abs() <= near
         {
