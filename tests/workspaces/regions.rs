@@ -2,7 +2,7 @@
 
 use assur::nalgebra::{Rotation2, Vector2};
 use assur::workspace::{ArcCurve, Isolated, Region, WorkspaceKind, WorkspaceModes};
-use assur::{JointKind, Leg, Manipulator, Placement};
+use assur::{Dyad, JointKind, Leg, Manipulator, Placement, Triad};
 
 use crate::membership::{NEAR, kind_of, modes_of, written};
 use crate::models::{Case, TROUBLES, Trouble, questions, random_case, scale};
@@ -298,6 +298,54 @@ fn total_orientation_workspaces_of_legs_whose_modes_differ_are_those_of_brute_fo
     }
     assert!(wrong.is_empty(), "{} of {asked} wrong; the first:\n{}", wrong.len(), wrong[0]);
     assert!(full * 4 > asked, "{full} of {asked} not empty, {coupled} with coupler curves");
+}
+
+/// Strokes held at one length: with three of them the maximal workspace is the assembly modes, with two a coupler curve's pieces.
+#[test]
+fn held_strokes_leave_points_and_curves() {
+    let strut = |a, b, limits| Leg { limits: [None, Some(limits), None], ..Leg::rpr(a, b) };
+    let robot = |third: [f64; 2]| {
+        let legs = vec![
+            strut([0.0, 0.0], [-5.0, -3.0], [14.98, 14.98]),
+            strut([15.91, 0.0], [12.04, -3.0], [15.38, 15.38]),
+            strut([0.0, 10.0], [8.19, 6.98], third),
+        ];
+        Manipulator::new("held", legs).expect("is sound")
+    };
+    let maximal = |third| {
+        let found = robot(third).workspace(&WorkspaceKind::Maximal, &WorkspaceModes::Both).expect("is bounded").region;
+        assert!(found.loops.is_empty() && found.unclosed.is_empty());
+        found.isolated
+    };
+    let modes = |third: f64| {
+        let legs = robot([third; 2]).legs;
+        let held = [0, 1, 2].map(|k| {
+            let length = legs[k].limits[1].expect("has a stroke")[0];
+            Dyad::RR { a: legs[k].base.at, b: legs[k].platform.at, length }
+        });
+        Triad::new(held).expect("is sound").real_modes().modes().to_vec()
+    };
+    let points = maximal([12.0, 12.0]);
+    assert_eq!((points.len(), modes(12.0).len()), (6, 6));
+    for mode in modes(12.0) {
+        let off = |part: &Isolated| match part {
+            Isolated::Point { at: [x, y], .. } => (x - mode.pose.x).hypot(y - mode.pose.y),
+            Isolated::Curve(_) => f64::INFINITY,
+        };
+        assert!(points.iter().map(off).fold(f64::INFINITY, f64::min) < 1e-11);
+    }
+    // The ends of the curves are where the third stroke ends.
+    let curves = maximal([10.0, 14.0]);
+    let ends: Vec<[f64; 2]> = (curves.iter())
+        .map(|part| match part {
+            Isolated::Curve(arc) => [arc.start, arc.end],
+            Isolated::Point { .. } => panic!("no point is alone"),
+        })
+        .flatten()
+        .collect();
+    let apart = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).hypot(p[1] - q[1]);
+    let alone = ends.iter().filter(|p| ends.iter().filter(|q| apart(**p, **q) < 1e-9).count() == 1).count();
+    assert_eq!(alone, modes(10.0).len() + modes(14.0).len());
 }
 
 /// The manipulator moved, turned and scaled.

@@ -82,6 +82,8 @@ pub(super) struct Curves {
     pub(super) vertices: Vec<Point>,
     /// Orientations at which limits begin or cease to meet each other.
     turning: Vec<f64>,
+    /// Poses that hold a limit of each of three legs.
+    pub(super) poses: Vec<(Place, [usize; 3])>,
     /// First of the branches of each coupled curve.
     pub(super) first_branch: Vec<usize>,
     pub(super) tol: f64,
@@ -99,6 +101,7 @@ impl Curves {
             curves: Vec::new(),
             vertices: Vec::new(),
             turning: Vec::new(),
+            poses: Vec::new(),
             first_branch: Vec::new(),
             tol: TOUCH * size,
             far: FAR * size,
@@ -523,6 +526,7 @@ impl Curves {
                         let c = Point::new(mode.pose.x, mode.pose.y);
                         let place = Place { c, turn: direction(mode.pose.phi) };
                         self.turning.push(mode.pose.phi);
+                        self.poses.push((place, [i, j, k]));
                         let vertex = self.vertex(c);
                         for pair in [[i, j], [i, k], [j, k]] {
                             self.mark_coupled(book, pair, &place, mode.pose.phi, vertex);
