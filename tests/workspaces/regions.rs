@@ -337,11 +337,10 @@ fn held_strokes_leave_points_and_curves() {
     // The ends of the curves are where the third stroke ends.
     let curves = maximal([10.0, 14.0]);
     let ends: Vec<[f64; 2]> = (curves.iter())
-        .map(|part| match part {
+        .flat_map(|part| match part {
             Isolated::Curve(arc) => [arc.start, arc.end],
             Isolated::Point { .. } => panic!("no point is alone"),
         })
-        .flatten()
         .collect();
     let apart = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).hypot(p[1] - q[1]);
     let alone = ends.iter().filter(|p| ends.iter().filter(|q| apart(**p, **q) < 1e-9).count() == 1).count();
