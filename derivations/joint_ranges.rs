@@ -3,7 +3,7 @@
 #[path = "page.rs"]
 mod page;
 
-use assur::nalgebra::{Isometry2, Vector2};
+use assur::nalgebra::{Isometry2, Rotation2, Vector2};
 use assur::workspace::{ActiveLimit, Limit, LimitCause, WorkspaceModes};
 use assur::{Dyad, JointKind, Leg, Manipulator, Placement, Pose};
 use page::Page;
@@ -111,7 +111,26 @@ pub fn document() -> String {
         "Two limits of one leg",
         "Joints 1 and 2 at their ends hold B in the base: C runs on a circle about B. Joints 1 and 3: the elbow is a pivot fixed in base and platform. Joints 2 and 3: A is fixed in the \
          platform, or the orientation is given (sliders). These corners bound total and dextrous workspaces where they point into the leg's region. Only with joint 1 at an \
-         end in one mode and joint 3 in the other is the corner a coupler curve, and such legs are refused for both modes at once.",
+         end in one mode and joint 3 in the other is the corner a coupler curve: one elbow is a pivot of the base, the other of the platform, so that two RR dyads carry the platform. It \
+         bounds what both modes together deny.",
+    );
+    let (first, second, pivot) = (2.0, 1.5, Vector2::new(0.3, 0.2));
+    let unit = |x: f64| Vector2::new(x.cos(), x.sin());
+    // Joint 1 at 1.2 in one mode; the elbow of the other is its mirror image in the line from pivot to pivot, and joint 3 is at -1 there.
+    let elbow = first * unit(1.2);
+    let in_platform = pivot - second * unit(1.0);
+    let mut off = 0.0_f64;
+    for k in 0..24 {
+        let joint = elbow + second * unit(0.26 * f64::from(k));
+        let along = joint.normalize();
+        let link = joint - (2.0 * elbow.dot(&along) * along - elbow);
+        let turn = Rotation2::new(link.y.atan2(link.x) - 1.0);
+        let c = joint - turn * pivot;
+        off = off.max(((c + turn * in_platform).norm() - first).abs());
+    }
+    page.holds(
+        "the other mode's elbow, fixed in the platform, keeps its distance from the base's pivot, to 1e-14",
+        off < 1e-14,
     );
     let leg = Leg { limits: [Some([0.2, 1.2]), None, Some([-1.0, 1.0])], ..Leg::rrr([0.0, 0.0], 2.0, 1.5, [0.3, 0.2]) };
     let robot = Manipulator::new("", vec![leg; 3]).expect("is sound");
@@ -120,8 +139,8 @@ pub fn document() -> String {
         robot.workspace(&kind, &modes.parse().expect("names modes"))
     };
     page.holds(
-        "RRR with ranges of joints 1 and 3: refused with both modes, answered with one",
-        ask("both").is_err() && ask("+++").is_ok(),
+        "RRR with ranges of joints 1 and 3: answered with both modes and with one",
+        ask("both").is_ok() && ask("+++").is_ok(),
     );
     page.step(
         "Names",

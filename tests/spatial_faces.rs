@@ -321,6 +321,14 @@ fn variants_with_fewer_degrees_of_freedom() {
         text(&["tripod", "velocity", &four, &pose, "--rates=0,0,0,1,0,0"])
             .contains("the platform does not move so: leg")
     );
+    let of_motors = json(&["tripod", "velocity", &four, &pose, "--rates=1,2,3,4", "--json"]);
+    assert!(of_motors["rates"]["inputs_if_pose"].is_null(), "{of_motors}");
+    assert_eq!(list(&of_motors["rates"]["pose_if_inputs"]).len(), 6, "{of_motors}");
+    let parted = json(&["tripod", "velocity", &four, &pose, "--rates=0,1,0,0,0,0", "--json"]);
+    assert!(
+        parted["rates"]["pose_if_inputs"]["refused"].as_str().is_some_and(|why| why.starts_with("leg 1")),
+        "{parted}"
+    );
     let direction = ["tripod", "inverse", &four, "--pose=0,0,0", "--direction=1,1,1"];
     assert!(refused(&direction).contains("5 degrees of freedom; this one has 4"));
     for (name, freedom) in [("tripod-5dof.toml", 5), ("tripod-4dof.toml", 4)] {

@@ -262,7 +262,13 @@ impl TripodModel {
             finite("accelerations", accelerations.iter().flatten())?;
             let velocity = self.file.robot.velocity(&tripod_pose(&pose)?).map_err(asked)?;
             let (rates, accelerations) = (rates.map(Vector6::from), accelerations.map(Vector6::from));
-            Ok::<_, Refused>(Answer::plain(tripod_velocity_json(&velocity, rates, accelerations)))
+            Ok::<_, Refused>(Answer::plain(tripod_velocity_json(
+                &self.file.robot,
+                &velocity,
+                rates,
+                accelerations,
+                true,
+            )))
         })?)
     }
 

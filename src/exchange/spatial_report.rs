@@ -7,8 +7,8 @@ use crate::solve::Account;
 use crate::spatial::{
     ArcRegion, Capability, CapabilityMap, CapabilityStop, CapabilitySupremum, Counted, DeterminantPoint,
     HanaAssemblies, HanaPose, HanaVelocity, HanaViolation, HanaWays, MixedReach, MixedSingularity, SpatialError, Tilt,
-    TiltLimit, TripodAssemblies, TripodAssembly, TripodDesign, TripodError, TripodPointing, TripodPose, TripodReach,
-    TripodVelocity, WorkspaceArc, WorkspaceCurve,
+    TiltLimit, Tripod, TripodAssemblies, TripodAssembly, TripodDesign, TripodError, TripodPointing, TripodPose,
+    TripodReach, TripodVelocity, WorkspaceArc, WorkspaceCurve,
 };
 
 pub(super) fn text(document: &Value) -> String {
@@ -259,12 +259,18 @@ pub fn tripod_forward_json(answer: &TripodAssemblies) -> String {
 }
 
 /// The Jacobian of a three-legged robot in a pose, and rates and accelerations both ways where they are asked for.
+///
+/// Six numbers each: of the platform or of the sliders; of the sliders only where `of_platform` is not set. Sliders of a leg with one motor that part are `refused`.
 pub fn tripod_velocity_json(
+    robot: &Tripod,
     velocity: &TripodVelocity,
     rates: Option<Vector6<f64>>,
     accelerations: Option<Vector6<f64>>,
+    of_platform: bool,
 ) -> String {
     let six = |found: Result<Vector6<f64>, TripodError>| answer::<6, _>(found.map(Into::into));
+    let all = |what, given: &Vector6<f64>| robot.all_sliders(what, given.as_slice()).map(Vector6::from);
+    let refused = |error: TripodError| json!({ "refused": error.to_string() });
     let jacobian: Vec<Vec<f64>> = velocity.jacobian.row_iter().map(|row| row.iter().copied().collect()).collect();
     let singularity = velocity.singularity();
     let mut document = json!({
@@ -274,16 +280,23 @@ pub fn tripod_velocity_json(
         "position_volume": velocity.position_volume, "orientation_volume": velocity.orientation_volume,
     });
     if let Some(given) = rates {
+        let inputs = of_platform.then(|| velocity.input_rates(&given));
+        let pose = all("rates", &given).map_or_else(refused, |sliders| six(velocity.pose_rates(&sliders)));
         document["rates"] = json!({
-            "given": given.as_slice(), "inputs_if_pose": velocity.input_rates(&given).as_slice(),
-            "pose_if_inputs": six(velocity.pose_rates(&given)),
+            "given": given.as_slice(), "inputs_if_pose": inputs.as_ref().map(|found| found.as_slice()), "pose_if_inputs": pose,
         });
+        if let Some(Err(error)) = inputs.map(|found| all("rates", &found)) {
+            document["rates"]["pose_refused"] = json!(error.to_string());
+        }
     }
     if let Some(given) = accelerations {
         let at = rates.unwrap_or_else(Vector6::zeros);
+        let inputs = of_platform.then(|| velocity.input_accelerations(&at, &given));
+        let pose = all("rates", &at)
+            .and(all("accelerations", &given))
+            .map_or_else(refused, |sliders| six(velocity.pose_accelerations(&at, &sliders)));
         document["accelerations"] = json!({
-            "given": given.as_slice(), "inputs_if_pose": velocity.input_accelerations(&at, &given).as_slice(),
-            "pose_if_inputs": six(velocity.pose_accelerations(&at, &given)),
+            "given": given.as_slice(), "inputs_if_pose": inputs.as_ref().map(|found| found.as_slice()), "pose_if_inputs": pose,
         });
     }
     text(&document)

@@ -105,14 +105,13 @@ impl Plan<'_> {
         let mut isolated: Vec<Isolated> = Vec::new();
         let mut pieces: Vec<(usize, Piece)> = Vec::new();
         for (n, line) in lines.iter().enumerate() {
-            pieces.extend(self.pieces(line, &ids, vertices.len() + n).into_iter().map(|piece| (n, piece)));
+            let found = self.pieces(line, &ids, vertices.len() + n).into_iter();
+            let allowed = found.filter(|piece| self.inside(line.carrier.at(0.5 * (piece.from + piece.to)), same));
+            pieces.extend(allowed.map(|piece| (n, piece)));
         }
         for (k, (n, piece)) in pieces.iter().enumerate() {
             let (n, line) = (*n, &lines[*n]);
             let m = line.carrier.at(0.5 * (piece.from + piece.to));
-            if !self.inside(m, same) {
-                continue;
-            }
             // Next to where two curves touch, pieces of both between the same vertices are one to roundings.
             let twin = |other: &usize| {
                 let (line, piece) = (&lines[pieces[*other].0], &pieces[*other].1);
@@ -131,7 +130,8 @@ impl Plan<'_> {
             if twins.iter().any(|&other| other < k) {
                 continue;
             }
-            let together: ArrayVec<usize, 8> = twins.iter().map(|&other| pieces[other].0).chain([n]).take(8).collect();
+            let together: ArrayVec<usize, 8> =
+                [n].into_iter().chain(twins.iter().map(|&other| pieces[other].0)).take(8).collect();
             let reach = self.clearance(&lines, n, &together, m);
             let normal = line.carrier.normal(m) * reach;
             // Growing parameter: a circle has its inside on the left, a line its left.
@@ -143,7 +143,7 @@ impl Plan<'_> {
             if sides == [true, true] {
                 continue;
             }
-            let bounds: Vec<usize> = together.iter().rev().flat_map(|&n| lines[n].bounds.iter().copied()).collect();
+            let bounds: Vec<usize> = together.iter().flat_map(|&n| lines[n].bounds.iter().copied()).collect();
             let active = self.active(&bounds, left, right);
             let ahead = sides != [false, true];
             // A whole circle without a vertex starts and ends in one and the same point.

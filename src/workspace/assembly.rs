@@ -285,10 +285,10 @@ impl Space {
     }
 
     /// # Errors
-    /// More than one part, and slices that could not be followed.
+    /// Slices that could not be followed, and not all in one part.
     fn decided(&self) -> Result<(), WorkspaceError> {
         match self.undecided {
-            Some(phi) if self.roots().len() > 1 => Err(WorkspaceError::AssembliesUndecided { phi }),
+            Some(phi) if self.roots().len() != 1 => Err(WorkspaceError::AssembliesUndecided { phi }),
             _ => Ok(()),
         }
     }

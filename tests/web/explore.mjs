@@ -401,7 +401,15 @@ const tests = {
 
   async "a closed socket is opened again, and nothing is lost"(page) {
     const before = await state(page);
-    await page.evaluate(() => globalThis.assur.connection.socket.close());
+    // Closing takes a moment, in which the old socket still counts as open.
+    await page.evaluate(() => {
+      globalThis.closed = globalThis.assur.connection.socket;
+      globalThis.closed.close();
+    });
+    await page.waitForFunction(() => {
+      const { socket } = globalThis.assur.connection;
+      return socket && socket !== globalThis.closed && socket.readyState === WebSocket.OPEN;
+    });
     await page.waitForFunction(() => document.getElementById("connection").dataset.state === "open" && document.getElementById("notice").hidden);
     await settled(page);
     assert.deepEqual((await state(page)).model, before.model);

@@ -4,7 +4,7 @@
 //! kinematics puts both sliders in the same place, a singularity of type 2 is one of the robot with all motors. The paper's robots with five and four degrees of freedom are the
 //! Cartesian one with leg 1, or legs 1 and 2, like this; its text removes motor 4 and blocks leg 1, which leaves four independent inputs: it must be motor 2 (or 1) for leg 1.
 
-use nalgebra::{Rotation3, Vector3};
+use nalgebra::{Rotation3, Unit, Vector3};
 
 use super::super::error::{SpatialError, moderate};
 use super::model::{Tripod, TripodError, TripodPose, TripodReach};
@@ -76,8 +76,8 @@ impl Tripod {
 
     /// The orientations of a robot with five degrees of freedom that point the tool's axis in a direction of the base frame, least torsion first.
     ///
-    /// **Shape**: each with its torsion `s` in radians, `R = rotation(direction, s)·R0`, where `R0` is the shortest rotation that takes the axis there. Two, one where they meet, or none; none too where every
-    /// torsion will do and where the direction is opposite to the axis, so that `R0` is not determined. **Accuracy**: closed form.
+    /// **Shape**: each with its torsion `s` in radians, `R = rotation(direction, s)·R0`, where `R0` is the shortest rotation that takes the axis there, opposite to it a half-turn about the normalised cross product of
+    /// the axis and the coordinate axis least along it. Two, one where they meet, or none; none too where every torsion will do. **Accuracy**: closed form.
     ///
     /// # Errors
     /// Not exactly one leg with one motor; a direction of no length or not finite.
@@ -145,6 +145,21 @@ impl Tripod {
     }
 }
 
+/// The shortest rotation that takes one direction to another, both of length 1; between opposite ones a half-turn about a fixed axis square to the first.
+///
+/// The angle by its sine and cosine: by its cosine alone it loses half of its digits near home.
+fn shortest_turn(from: &Vector3<f64>, to: &Vector3<f64>) -> Rotation3<f64> {
+    let across = from.cross(to);
+    let angle = across.norm().atan2(from.dot(to));
+    // Between nearly opposite ones rounding would leave a part along the first.
+    let axis = Unit::try_new(across - from * across.dot(from), 0.0).unwrap_or_else(|| {
+        // Square to the first, from the coordinate axis that is least along it.
+        let least = from.iamin();
+        Unit::new_normalize(from.cross(&Vector3::ith(least, 1.0)))
+    });
+    Rotation3::from_axis_angle(&axis, angle)
+}
+
 /// Turns that take an axis to a direction, both of length 1, and keep another axis square to a normal; least torsion first.
 pub(super) fn turned_into_plane(
     axis: &Vector3<f64>,
@@ -152,7 +167,7 @@ pub(super) fn turned_into_plane(
     kept: &Vector3<f64>,
     normal: &Vector3<f64>,
 ) -> Vec<(f64, Rotation3<f64>)> {
-    let Some(shortest) = Rotation3::rotation_between(axis, direction) else { return Vec::new() };
+    let shortest = shortest_turn(axis, direction);
     // normal · R kept = a + b cos s + c sin s.
     let there = shortest * kept;
     let a = normal.dot(direction) * direction.dot(&there);
@@ -178,4 +193,27 @@ pub(super) fn circle_equation(b: f64, c: f64, k: f64) -> Vec<f64> {
         found.push(wrapped(middle + half));
     }
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Matrix3;
+
+    use super::*;
+
+    /// Near home, near the half-turn, and at both.
+    #[test]
+    fn shortest_turns_keep_their_digits() {
+        let from = Vector3::new(0.48, -0.6, 0.64);
+        let beside = from.cross(&Vector3::x()).normalize();
+        for small in [0.0, 1e-300, 1e-12, 1e-9, 1e-6, 1e-3] {
+            for sign in [1.0, -1.0] {
+                let to = (sign * from + small * beside).normalize();
+                let turn = shortest_turn(&from, &to);
+                // A few roundings of numbers up to 1.
+                assert!((turn * from - to).norm() < 8.0 * f64::EPSILON, "{small} {sign}: {turn}");
+                assert!((turn.matrix() * turn.matrix().transpose() - Matrix3::identity()).norm() < 8.0 * f64::EPSILON);
+            }
+        }
+    }
 }

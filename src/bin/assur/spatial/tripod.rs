@@ -335,7 +335,7 @@ fn tripod_velocity(file: &Path, pose: &[f64], asked: [&[f64]; 2], json: bool) ->
     let of_platform = asked.iter().all(|given| [0, 6].contains(&given.len()));
     let velocity = robot.velocity(&pose).map_err(|error| about(file, error))?;
     if json {
-        return output::print(&tripod_velocity_json(&velocity, rates, accelerations));
+        return output::print(&tripod_velocity_json(&robot, &velocity, rates, accelerations, of_platform));
     }
     let mut text = titled(&robot.name, "three-legged robot");
     line(&mut text, format_args!("rho' = J (p', omega), angles in radians"));
