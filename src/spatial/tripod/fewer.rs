@@ -207,7 +207,7 @@ mod tests {
         let from = Vector3::new(0.48, -0.6, 0.64);
         let beside = from.cross(&Vector3::x()).normalize();
         for small in [0.0, 1e-300, 1e-12, 1e-9, 1e-6, 1e-3] {
-            for sign in [1.0, -1.0] {
+            for sign in [1.0_f64, -1.0] {
                 let to = (sign * from + small * beside).normalize();
                 let turn = shortest_turn(&from, &to);
                 // A few roundings of numbers up to 1.
