@@ -49,7 +49,7 @@ fn clipped_at(curves: &[NamedCurve]) -> f64 {
     if quartile > 0.0 { POLE * quartile } else { sizes.last().copied().unwrap_or(0.0) }
 }
 
-/// Curves over one quantity, the first axis named first; values that are not finite are gaps.
+/// Curves over one quantity, the first axis named first; values that are not finite are gaps, and where values run off, beyond eight times the third quartile of their sizes, curves are cut.
 pub fn draw_curves(title: &str, subtitle: &str, axes: [&str; 2], curves: &[NamedCurve]) -> String {
     let highest = clipped_at(curves);
     let shown = |y: &f64| y.abs() <= highest;

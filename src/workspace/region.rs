@@ -89,7 +89,7 @@ pub enum Isolated {
         /// The limits that leave no more.
         active: Vec<ActiveLimit>,
     },
-    /// A piece of curve; no side of it belongs to the region.
+    /// A piece of curve; no side of it belongs to the region, but for slivers of less than `1e-12` of the mechanism's size across.
     Curve(BoundaryArc),
 }
 
@@ -98,7 +98,7 @@ pub enum Isolated {
 pub struct Region {
     /// Outer loops run counter-clockwise, holes clockwise: the region is on the left.
     pub loops: Vec<Loop>,
-    /// Parts without area.
+    /// Parts without area. Not sought in total and dextrous workspaces of legs with ranges of joints 1 and 3 in both working modes.
     pub isolated: Vec<Isolated>,
     /// Area.
     pub area: f64,

@@ -78,7 +78,7 @@ impl Tripod {
     /// The largest tilt of the tool at a place that every azimuth allows; `None` where the home orientation itself is out of limits.
     ///
     /// **Units**: radians; the place is that of the tool's point, in the base frame. **Accuracy**: a few roundings at the worst azimuth found, which is stationary to `1e-9`; no azimuth is worse by more
-    /// than about `1e-4` of the angle, by bounds over sectors of azimuths. [`Tripod::tilt_bound`] proves it to a tolerance of your own. **Cost**: some tens of microseconds.
+    /// than about `1e-4` of the angle, by bounds over sectors of azimuths, unless some thousand sectors are not enough. [`Tripod::tilt_bound`] proves it to a tolerance of your own. **Cost**: some tens of microseconds.
     ///
     /// # Errors
     /// A place that is not finite; a leg without a plane in the home orientation.
@@ -139,7 +139,7 @@ impl Tripod {
     /// A tilt that every azimuth is shown to allow, at most `tolerance` (radians) below `tilt`, which [`Tripod::tilt`] gave; `None` where that is not shown.
     ///
     /// **Proof**: over a sector of azimuths each limit has Bernstein coefficients in distance and direction; sectors are halved until all of them are positive up to the
-    /// tilt returned. Rounding is covered by a margin, not by interval arithmetic. Up to 177°. **Cost**: some tens of microseconds; some hundred where a limit hardly depends on the azimuth.
+    /// tilt returned. Rounding is covered by a margin on coefficients that do not cancel, not by interval arithmetic. Up to 177°. **Cost**: some tens of microseconds; some hundred where a limit hardly depends on the azimuth.
     ///
     /// # Errors
     /// As [`Tripod::tilt`].
