@@ -128,10 +128,7 @@ pub fn document() -> String {
         let c = joint - turn * pivot;
         off = off.max(((c + turn * in_platform).norm() - first).abs());
     }
-    page.holds(
-        "the other mode's elbow, fixed in the platform, keeps its distance from the base's pivot, to 1e-14",
-        off < 1e-14,
-    );
+    page.holds("the other elbow, fixed in the platform, stays on a circle of the base, to 1e-14", off < 1e-14);
     let leg = Leg { limits: [Some([0.2, 1.2]), None, Some([-1.0, 1.0])], ..Leg::rrr([0.0, 0.0], 2.0, 1.5, [0.3, 0.2]) };
     let robot = Manipulator::new("", vec![leg; 3]).expect("is sound");
     let ask = |modes: &str| {
