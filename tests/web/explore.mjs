@@ -403,12 +403,12 @@ const tests = {
     const before = await state(page);
     // Closing takes a moment, in which the old socket still counts as open.
     await page.evaluate(() => {
-      globalThis.closed = globalThis.assur.connection.socket;
-      globalThis.closed.close();
+      globalThis.socketBefore = globalThis.assur.connection.socket;
+      globalThis.socketBefore.close();
     });
     await page.waitForFunction(() => {
       const { socket } = globalThis.assur.connection;
-      return socket && socket !== globalThis.closed && socket.readyState === WebSocket.OPEN;
+      return socket && socket !== globalThis.socketBefore && socket.readyState === WebSocket.OPEN;
     });
     await page.waitForFunction(() => document.getElementById("connection").dataset.state === "open" && document.getElementById("notice").hidden);
     await settled(page);
