@@ -41,6 +41,9 @@
 //! | circuit | a piece of a coupler curve that the linkage traces without being taken apart |
 //! | twin poses | two assembly modes with the same orientation |
 //! | self-motion | a whole curve of poses for the same inputs |
+//! | reference point | the platform point whose places a workspace is about |
+//! | limit | an end of a joint's range, or the merging of a leg's working modes: what bounds a workspace |
+//! | constant, maximal, inclusive, total, dextrous | reached with one orientation, with some, with some of a range, with every one of a range, with every one |
 //!
 //! # Features
 //!
@@ -57,12 +60,16 @@
 //! - Fujiwara 1916: M. Fujiwara, Über die obere Schranke des absoluten Betrages der Wurzeln einer algebraischen Gleichung, Tohoku Math.
 //!   J. 10, 167-171.
 //! - von zur Gathen and Gerhard 2013: Modern Computer Algebra, 3rd edition, Cambridge University Press.
+//! - Gosselin, Lemieux, Merlet 1996: C. Gosselin, S. Lemieux, J.-P. Merlet, A new architecture of planar three-degree-of-freedom
+//!   parallel manipulator, IEEE ICRA, 3738-3743.
 //! - Gosselin, Sefrioui, Richard 1992: Solutions polynomiales au problème de la cinématique directe des manipulateurs parallèles plans à
 //!   trois degrés de liberté, Mech. Mach. Theory 27, 107-119.
 //! - Knuth 1969: D. E. Knuth, The Art of Computer Programming, vol. 2, Addison-Wesley (exact sums of two floats).
 //! - Krawczyk 1969: R. Krawczyk, Newton-Algorithmen zur Bestimmung von Nullstellen mit Fehlerschranken, Computing 4, 187-201.
 //! - Liu, Wang, Wang, Li 2004: X. Liu, J. Wang, Q. Wang, T. Li, Workspace and rotational capability analysis of a spatial 3-DoF parallel
 //!   manipulator.
+//! - Merlet, Gosselin, Mouly 1998: J.-P. Merlet, C. M. Gosselin, N. Mouly, Workspaces of planar parallel manipulators, Mech. Mach.
+//!   Theory 33, 7-20.
 //! - Mitsi, Bouzakis, Mansour, Popescu: A method for forward displacement analysis of 3-RRP and 3-PRP planar parallel manipulators.
 //! - Mohamed and Duffy 1985: M. G. Mohamed, J. Duffy, A direct determination of the instantaneous kinematics of fully parallel robot
 //!   manipulators, J. Mech. Transm. Autom. Des. 107, 226-229.
@@ -91,11 +98,13 @@ pub mod eliminate;
 pub mod exchange;
 pub mod linkage;
 pub mod manipulator;
+pub mod plane;
 #[cfg(feature = "plot")]
 pub mod plot;
 pub mod roots;
 pub mod solve;
 pub mod spatial;
+pub mod workspace;
 
 pub use certify::Verdict;
 pub use linkage::{
@@ -106,11 +115,12 @@ pub use linkage::{
     TrussJoint, TwoLinkAssemblies, TwoLinkAssembly, TwoLinkError, TwoLinkGroup, TwoLinkSpecial, triad_degree,
 };
 pub use manipulator::{
-    AssemblyModes, DescriptionError, FamilyError, FollowedPath, InverseSpecial, JointKind, JointsError, JointsReason,
+    ActuatorPlane, AssemblyModes, Carried, DescriptionError, DesignCoordinate, DesignError, DesignKey, DesignNumber,
+    DesignPart, FamilyError, FollowedPath, Guided, InverseSpecial, JointKind, JointsError, JointsReason,
     KinematicsError, Leg, LegLocus, LockError, LockedGroup, LocusError, Manipulator, ManipulatorMode, MapQuantity,
-    ModeChoice, ModesBatch, PathError, PathEvent, PathEventKind, PathRow, PathSettings, Placement, PlaneCurve,
-    PlaneMap, PlaneWindow, Reading, Remark, SingularMatrix, Singularity, SingularityKind, SingularityLocus,
-    Unreachable, Velocity, Violation, WorkingMode, WorkingModes,
+    ModeChoice, ModeEnd, ModesBatch, ModesPlaces, PathError, PathEvent, PathEventKind, PathRow, PathSettings,
+    Placement, PlaneCurve, PlaneMap, PlaneWindow, Reading, Remark, SingularMatrix, Singularity, SingularityKind,
+    SingularityLocus, Tracked, Unreachable, Velocity, Violation, WorkingMode, WorkingModes,
 };
 pub use solve::{
     Account, Eliminant, EliminateError, Outcome, Plan, RejectedRoot, RootRejection, Solution, Solutions, SolveError,
@@ -119,14 +129,27 @@ pub use solve::{
 
 pub use spatial::{
     ArcCircle, ArcRegion, Capability, CapabilityMap, CapabilityStop, CapabilitySupremum, CartesianRobot,
-    CartesianSingular, Hana, HanaAssemblies, HanaAssembly, HanaFamily, HanaMode, HanaPose, HanaSingularKind,
-    HanaSingularity, HanaUnreachable, HanaVelocity, HanaViolation, HanaWay, HanaWays, HanaWorkspaceError, Hexapteron,
-    MixedReach, MixedSingularity, Orientations, PlaneConditions, Quadrupteron, SpatialError, Tilt, TiltLimit, Tripod,
-    TripodAssemblies, TripodAssembly, TripodError, TripodLeg, TripodPose, TripodReach, TripodSingularity, TripodStatus,
-    TripodVelocity, Tripteron, WorkspaceArc,
+    CartesianSingular, Counted, DeterminantPoint, Hana, HanaAssemblies, HanaAssembly, HanaCapabilityError, HanaFamily,
+    HanaMode, HanaPose, HanaSingularKind, HanaSingularity, HanaUnreachable, HanaVelocity, HanaViolation, HanaWay,
+    HanaWays, Hexapteron, LinkCurve, MixedReach, MixedSingularity, Multipteron, MultipteronError, MultipteronPoses,
+    Orientations, PlaneConditions, Quadrupteron, SpatialError, SpatialRemark, Tilt, TiltLimit, Tripod,
+    TripodAssemblies, TripodAssembly, TripodDesign, TripodError, TripodLeg, TripodPose, TripodReach, TripodSingularity,
+    TripodStatus, TripodVelocity, Tripteron, WorkspaceArc, WorkspaceCurve,
+};
+
+pub use plane::{AngleSet, PhiRange};
+pub use workspace::{
+    ActiveLimit, ArcCurve, BoundaryArc, Isolated, Membership, Reach, Region, Workspace, WorkspaceError, WorkspaceKind,
+    WorkspaceModes,
 };
 
 /// The README's code runs as a test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;
+
+/// The guide's code runs as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/src/first-answers.md")]
+#[doc = include_str!("../docs/src/motion.md")]
+struct Guide;

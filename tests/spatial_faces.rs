@@ -153,7 +153,7 @@ fn bad_questions_are_refused_by_name() {
     );
     assert!(refused(&["hana", "forward", &tripod, "--inputs=0,0,0"]).contains("`assur tripod`"));
     assert!(refused(&["forward", &hana, "--inputs=0,0,0"]).contains("`assur hana`"));
-    assert!(refused(&["hana", "workspace", &hana, "reachable", "--mode=+-+"]).contains("same side"));
+    assert!(refused(&["hana", "capability", &hana, "--at=0,-12", "--mode=+-+"]).contains("same side"));
     for (name, from, to, message) in [
         ("parallel.toml", "w = [0.0, 0.0, 1.0]", "w = [1.0, 0.0, 0.0]", "leg 1: the base axis w must be square"),
         ("rail.toml", "Db = [0.0, 720.0, 0.0]", "Db = [0.0, 600.0, 0.0]", "leg 1: the rails coincide"),
@@ -169,12 +169,86 @@ fn bad_questions_are_refused_by_name() {
 }
 
 #[test]
+fn robots_are_drawn_and_checked_and_determinants_are_curves() {
+    let (hana, tripod) = (model("hana.toml"), model("tripod-cartesian.toml"));
+    let folder = folder("robots");
+    let drawn = |arguments: &[&str], name: &str| {
+        let picture = folder.join(name);
+        let picture = picture.to_str().expect("plain");
+        text(&[arguments, &["--svg", picture]].concat());
+        let svg = std::fs::read_to_string(picture).expect("is written");
+        assert!(svg.contains("</svg>") && !svg.contains("NaN") && !svg.contains("inf"), "{name}");
+        svg
+    };
+    let modes = drawn(&["hana", "forward", &hana, "--inputs=1,-0.5,0.3"], "modes.svg");
+    assert_eq!(modes.matches(", phi = ").count(), 4);
+    drawn(&["hana", "inverse", &hana, "--pose=-2,-12,0.4"], "ways.svg");
+    drawn(&["tripod", "inverse", &tripod, "--pose=200,260,240,10,5,-3"], "pose.svg");
+    let inputs = "--inputs=240,254,188,164,92,47";
+    assert_eq!(drawn(&["tripod", "forward", &tripod, inputs], "tripod.svg").matches(">mode ").count(), 4);
+    drawn(&["hana", "workspace", &hana, "reachable", "--mode=+-+", "--from=-180", "--to=180"], "opposite.svg");
+    let exact = json(&["tripod", "forward", &tripod, inputs, "--certify", "--json"]);
+    assert_eq!((exact["modes"][0]["proof"].as_str(), exact["account"]["rejected"].as_u64()), (Some("proven"), Some(4)));
+    let table = folder.join("determinant.csv");
+    let table = table.to_str().expect("plain");
+    drawn(&["tripod", "determinant", "inclined", "--points=91", "--csv", table], "determinant.svg");
+    let rows = std::fs::read_to_string(table).expect("is written");
+    assert_eq!((rows.lines().count(), rows.lines().next()), (92, Some("elevation,between,det_J_1,det_J_2,det_J_3")));
+    let curve = json(&["tripod", "determinant", "upright", "--pose=0,0,0,10,5,0", "--points=3", "--json"]);
+    assert_eq!(curve["curves"][0]["points"].as_array().map(Vec::len), Some(3));
+    assert!(refused(&["tripod", "determinant", "inclined", "--pose=1,2"]).contains("pose: 2 given, must be 6"));
+    let check = json(&["check", &hana, "--json"]);
+    assert_eq!((check["family"].as_str(), check["numbers"]["r"].as_str()), (Some("HANA"), Some("3")));
+    let check = json(&["check", &tripod, "--json"]);
+    assert_eq!(check["remarks"][0]["name"], "cartesian");
+    assert!(text(&["check", &hana]).contains("degree bound  8"));
+}
+
+#[test]
+fn multipterons_from_files() {
+    for (file, pose, count) in [
+        ("tripteron.toml", "--pose=1,2,3", 1),
+        ("quadrupteron.toml", "--pose=0.2,-0.1,0.4,0,0,30", 2),
+        ("hexapteron.toml", "--pose=20,-10,30,5,0,10", 8),
+    ] {
+        let file = model(file);
+        let inverse = json(&["multipteron", "inverse", &file, pose, "--json"]);
+        let inputs: Vec<String> =
+            inverse["inputs"].as_array().expect("a list").iter().map(ToString::to_string).collect();
+        let inputs = format!("--inputs={}", inputs.join(","));
+        let forward = json(&["multipteron", "forward", &file, &inputs, "--json"]);
+        let modes = forward["modes"].as_array().expect("modes");
+        assert_eq!((modes.len(), forward["account"]["real"].as_u64()), (count, Some(count as u64)), "{file}");
+        let place = |value: &serde_json::Value| [0, 1, 2].map(|k| number(&value[k]));
+        let wanted = place(&inverse["position"]);
+        assert!(
+            modes
+                .iter()
+                .any(|mode| { place(&mode["pose"]["position"]).iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-9) })
+        );
+        assert!(text(&["multipteron", "forward", &file, &inputs]).contains("degree"));
+        assert_eq!(json(&["check", &file, "--json"])["degree_bound"].as_u64(), Some(count as u64));
+    }
+    let path = folder("multipterons").join("five.toml");
+    std::fs::write(&path, "schema = \"assur/multipteron/1\"\nkind = \"pentapteron\"\ndirections = []")
+        .expect("is written");
+    let path = path.to_str().expect("plain");
+    assert!(refused(&["multipteron", "forward", path, "--inputs=1,2,3,4,5"]).contains("208 real solutions"));
+    let tripteron = model("tripteron.toml");
+    assert!(refused(&["multipteron", "inverse", &tripteron, "--pose=1,2,3,0.1,0,0"]).contains("cannot turn"));
+    assert!(refused(&["multipteron", "forward", &tripteron, "--inputs=1,2"]).contains("inputs: 2 given, must be 3"));
+}
+
+#[test]
 fn models_to_start_from_are_sound() {
-    for (name, command) in [("hana", "hana"), ("tripod", "tripod")] {
+    for (name, command) in
+        [("hana", "hana"), ("tripod", "tripod"), ("tripod-inclined", "tripod"), ("tripod-upright", "tripod")]
+    {
         let path = folder("new-spatial").join(format!("{name}.toml"));
         let path = path.to_str().expect("plain");
         assert!(run(&["new", name, "--output", path]).status.success());
         let inputs = if name == "hana" { "--inputs=0,0,0" } else { "--inputs=0,0,0,0,0,0" };
         assert!(run(&[command, "forward", path, inputs]).status.success());
+        assert!(run(&["check", path]).status.success());
     }
 }

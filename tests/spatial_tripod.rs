@@ -4,8 +4,8 @@ mod random;
 
 use assur::nalgebra::{Matrix3, Rotation3, Vector3, Vector6};
 use assur::{
-    CartesianRobot, CartesianSingular, Hexapteron, PlaneConditions, Quadrupteron, Tripod, TripodLeg, TripodPose,
-    TripodSingularity, TripodStatus,
+    CartesianRobot, CartesianSingular, Counted, Hexapteron, PlaneConditions, Quadrupteron, Tripod, TripodDesign,
+    TripodLeg, TripodPose, TripodSingularity, TripodStatus,
 };
 use random::Random;
 use serde_json::Value;
@@ -404,6 +404,58 @@ fn multipterons() {
 }
 
 #[test]
+fn exact_counts_are_those_of_the_numbers() {
+    let mut random = Random::new(21);
+    let mut counts = [0; 9];
+    let scale: usize = std::env::var("ASSUR_TEST_SCALE").ok().and_then(|text| text.parse().ok()).unwrap_or(1);
+    for trial in 0..24 * scale {
+        let robot = match trial % 4 {
+            0 => Tripod::cartesian(600.0, 720.0).expect("sound"),
+            1 => Tripod::inclined(random.between(0.1, 1.2), 2.0, 3.0).expect("sound"),
+            2 => Tripod::upright(random.between(0.1, 1.2), 2.0, 3.0).expect("sound"),
+            _ => random_robot(&mut random),
+        };
+        let pose = TripodPose::new(direction(&mut random), direction(&mut random) * random.between(0.0, 1.4));
+        let Ok(velocity) = robot.velocity(&pose) else { continue };
+        if velocity.position_volume.abs() < 1e-2 || velocity.orientation_volume.abs() < 1e-2 {
+            continue;
+        }
+        let (exact, fast) =
+            (robot.certify(&velocity.inputs).expect("finite"), robot.forward(&velocity.inputs).expect("finite"));
+        assert_eq!((exact.counted, fast.counted), (Counted::Exactly, Counted::Numerically));
+        assert_eq!((exact.account, exact.status), (fast.account, fast.status), "{robot:?} {:?}", velocity.inputs);
+        counts[exact.account.real] += 1;
+        assert_eq!(exact.modes.len(), fast.modes.len());
+        for mode in &exact.modes {
+            assert!(mode.residual < 1e-12);
+            assert!(fast.modes.iter().any(|other| apart(&mode.pose.rotation, &other.pose.rotation) < 1e-9));
+        }
+    }
+    assert!(counts[4] > 0 && counts.iter().sum::<usize>() > 12, "{counts:?}");
+}
+
+#[test]
+fn degenerate_inputs_are_decided_exactly() {
+    let cartesian = Tripod::cartesian(600.0, 720.0).expect("sound");
+    // T = 1, as exactly as 120/120 is 1: the place is not determined; a little beside, it is.
+    let free = cartesian.certify(&[0.0, 120.0, 0.0, 120.0, 0.0, 120.0]).expect("finite");
+    assert_eq!(free.status, TripodStatus::PositionFree);
+    let beside = cartesian.certify(&[0.0, 120.0, 0.0, 120.0, 0.0, 120.0 + 1e-9]).expect("finite");
+    assert_eq!((beside.status, beside.modes.len(), beside.spurious.len()), (TripodStatus::Complete, 4, 4));
+    // T = -1: the four true orientations have run into the four spurious ones; beside, they are eight.
+    let merged = cartesian.certify(&[0.0, -120.0, 0.0, -120.0, 0.0, -120.0]).expect("finite");
+    assert_eq!((merged.modes.len(), merged.spurious.len(), merged.account.rejected), (0, 4, 8));
+    assert!(merged.spurious.iter().all(|mode| mode.multiplicity == 2 && mode.parallel_axes == [true; 3]));
+    let beside = cartesian.certify(&[0.0, -120.0, 0.0, -120.0, 0.0, -120.0 - 1e-9]).expect("finite");
+    assert_eq!((beside.modes.len(), beside.spurious.len()), (4, 4));
+    // All platform axes parallel: free to turn about them.
+    let mut legs = cartesian.legs;
+    legs.iter_mut().for_each(|leg| leg.v = Vector3::new(0.6, 0.0, 0.8));
+    let turning = Tripod::new(legs).expect("sound").certify(&[1.0, 2.0, 3.0, 5.0, 8.0, 13.0]).expect("finite");
+    assert_eq!((turning.status, turning.account.self_motion), (TripodStatus::OrientationFree, 8));
+}
+
+#[test]
 fn determinants_of_figure_8_vanish_where_said() {
     // The curves of det J over elevation and axis angle, at home: none at the ends, some in between.
     let home = TripodPose::new(Vector3::new(0.0, 0.0, 10.0), Vector3::zeros());
@@ -416,4 +468,45 @@ fn determinants_of_figure_8_vanish_where_said() {
     let tilted = TripodPose::new(Vector3::zeros(), Vector3::new(0.2, 0.1, 0.0));
     let robot = Tripod::upright(19_f64.to_radians(), 600.0, 720.0).expect("sound");
     assert_eq!(robot.velocity(&tilted).expect("regular").singularity(), TripodSingularity::None);
+}
+
+#[test]
+fn determinant_curves_are_those_of_the_jacobian_and_the_closed_forms() {
+    let level = TripodPose::new(Vector3::new(3.0, -8.0, 20.0), Vector3::zeros());
+    let curve = TripodDesign::Inclined.determinant_curve(600.0, 720.0, &level, [0.0, 1.5], 40).expect("sound");
+    for point in &curve {
+        let (s, c) = point.elevation.sin_cos();
+        let closed = 6.75 * 120.0_f64.powi(3) * (s * c).powi(3);
+        assert!((point.determinant.expect("regular") - closed).abs() < 1e-9 * 120.0_f64.powi(3), "{point:?} {closed}");
+    }
+    let level = TripodDesign::Upright.determinant_curve(600.0, 720.0, &level, [0.0, 1.4], 40).expect("sound");
+    let small = |e: f64| 1e-12 * 120.0_f64.powi(3) / e.cos().powi(6);
+    assert!(level.iter().all(|point| point.determinant.expect("regular").abs() < small(point.elevation)));
+    // 110° between axes at an elevation of 18.94°, as the paper's text has it.
+    let angle = |degrees: f64| {
+        let range = [degrees.to_radians(), 1.0];
+        TripodDesign::Upright.determinant_curve(
+            600.0,
+            720.0,
+            &TripodPose::new(Vector3::zeros(), Vector3::zeros()),
+            range,
+            2,
+        )
+    };
+    assert!((angle(18.937_119_75).expect("sound")[0].between.to_degrees() - 110.0).abs() < 1e-4);
+    // Against the 6 by 6 determinant, in any pose.
+    let mut random = Random::new(31);
+    for trial in 0..200 {
+        let robot = random_robot(&mut random);
+        let robot = match trial % 3 {
+            0 => TripodDesign::Inclined.robot(random.between(0.1, 1.4), 2.0, 3.0).expect("sound"),
+            1 => TripodDesign::Upright.robot(random.between(0.1, 1.4), 2.0, 3.0).expect("sound"),
+            _ => robot,
+        };
+        let pose = TripodPose::new(direction(&mut random), direction(&mut random));
+        let Ok(velocity) = robot.velocity(&pose) else { continue };
+        let scale: f64 = velocity.jacobian.row_iter().map(|row| row.norm()).product();
+        let (short, long) = (robot.jacobian_determinant(&pose).expect("regular"), velocity.jacobian.determinant());
+        assert!((short - long).abs() < 1e-11 * scale, "{short} {long} {scale}");
+    }
 }

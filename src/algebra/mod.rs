@@ -17,6 +17,7 @@ mod residue;
 mod ring;
 mod short_trig;
 mod trig;
+mod twice;
 mod upoly;
 
 pub use bounded::Bounded;
@@ -32,4 +33,5 @@ pub use residue::Residue;
 pub use ring::{Domain, Ring};
 pub use short_trig::{SHORT_ORDER, ShortTrig};
 pub use trig::Trig;
+pub use twice::Twice;
 pub use upoly::UPoly;

@@ -19,6 +19,7 @@
 //! doi:10.1115/1.2829445; Wampler (2001), Solving the kinematics of planar mechanisms by Dixon determinant and a complex-plane
 //! formulation, J. Mech. Des. 123, 382-387, doi:10.1115/1.1372192.
 
+use nalgebra::DMatrix;
 use num_complex::Complex64;
 use thiserror::Error;
 
@@ -136,6 +137,78 @@ impl<R: Ring> DixonPencil<R> {
             (quotient.is_finite() && quotient != Complex64::ZERO).then_some(quotient)
         };
         (0..2 * self.equations - 1).map(value).collect()
+    }
+}
+
+/// The pencil of a system whose lower coefficients are the conjugates of its upper ones, as that of real loops are, in a real parameter.
+///
+/// With `x = (1 + it) / (1 - it)` real `t` are the points of the unit circle. Conjugation then exchanges the row of a set with that of the
+/// rest, and an entry of a kernel vector with that of the rest; so the rows of one half, split into real and imaginary parts,
+/// say everything, in the sums and differences of paired entries: a real pencil of the same size, whose eigenvalues are real or
+/// conjugate in pairs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RealDixonPencil {
+    /// Column of the set that complements each of the first half.
+    partners: Vec<usize>,
+    /// `A` of `A + t B`.
+    pub constant: DMatrix<f64>,
+    /// `B`.
+    pub linear: DMatrix<f64>,
+}
+
+impl DixonPencil<Complex64> {
+    /// The pencil in `t`, `x = (1 + it) / (1 - it)`. Meant for `lower` conjugate to `upper`, which is not checked.
+    ///
+    /// ```
+    /// use assur::{eliminate::DixonPencil, num_complex::Complex64};
+    /// // 1 - 2x + ct = 0 with |c| = sqrt(5) and the conjugate of it: x = i, so t = 1, is a solution.
+    /// let c = |re, im| Complex64::new(re, im);
+    /// let upper = [vec![c(1.0, 0.0), c(-2.0, 0.0), c(-1.0, 2.0)]];
+    /// let lower = [vec![c(1.0, 0.0), c(-2.0, 0.0), c(-1.0, -2.0)]];
+    /// let pencil = DixonPencil::new(&upper, &lower)?.on_unit_circle();
+    /// assert!((&pencil.constant + &pencil.linear).determinant().abs() < 1e-14);
+    /// # Ok::<(), assur::eliminate::DixonShapeError>(())
+    /// ```
+    pub fn on_unit_circle(&self) -> RealDixonPencil {
+        let size = self.monomials.len();
+        let half = size / 2;
+        let everything = (1u32 << (2 * self.equations - 1)) - 1;
+        let partner = |set: &u32| self.monomials[half..].binary_search(&(everything & !set)).map(|place| half + place);
+        let partners: Vec<usize> =
+            self.monomials[..half].iter().map(|set| partner(set).expect("every set of l is listed")).collect();
+        let (mut constant, mut linear) = (DMatrix::zeros(size, size), DMatrix::zeros(size, size));
+        for row in 0..half {
+            let (m0, m1) = (&self.constant[row], &self.linear[row]);
+            for (column, &other) in partners.iter().enumerate() {
+                // (1 - it) M0 + (1 + it) M1, entries p + iq and p - iq.
+                let sum = |k: usize| m0[k] + m1[k];
+                let turned = |k: usize| Complex64::I * (m1[k] - m0[k]);
+                for (matrix, here, there) in
+                    [(&mut constant, sum(column), sum(other)), (&mut linear, turned(column), turned(other))]
+                {
+                    let (p, q) = (here + there, Complex64::I * (here - there));
+                    matrix[(row, column)] = p.re;
+                    matrix[(half + row, column)] = p.im;
+                    matrix[(row, half + column)] = q.re;
+                    matrix[(half + row, half + column)] = q.im;
+                }
+            }
+        }
+        RealDixonPencil { partners, constant, linear }
+    }
+}
+
+impl RealDixonPencil {
+    /// The kernel vector of the complex pencil that belongs to one of this.
+    pub fn entries(&self, vector: &[Complex64]) -> Vec<Complex64> {
+        let half = self.partners.len();
+        let mut entries = vec![Complex64::ZERO; 2 * half];
+        for (column, &other) in self.partners.iter().enumerate() {
+            let (p, q) = (vector[column], Complex64::I * vector[half + column]);
+            entries[column] = p + q;
+            entries[other] = p - q;
+        }
+        entries
     }
 }
 

@@ -13,7 +13,7 @@ mod resultant;
 mod sylvester;
 
 pub use determinant::{determinant_bareiss, determinant_degree_bound, determinant_expanded, determinant_interpolated};
-pub use dixon::{DixonPencil, DixonShapeError};
+pub use dixon::{DixonPencil, DixonShapeError, RealDixonPencil};
 pub use factor::{FactorError, NamedFactor, Power, RemovedFactor};
 pub use resultant::{resultant, resultant_bareiss, resultant_formal, resultant_interpolated};
 pub use sylvester::{FormalDegreeTooLow, SylvesterMatrix};

@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use crate::linkage::{CouplerError, LinkageError, TriadError, TrussError};
 use crate::manipulator::DescriptionError;
-use crate::spatial::TripodError;
+use crate::spatial::{MultipteronError, TripodError};
 
 /// The two forms of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,6 +100,14 @@ pub enum FileError {
         file: String,
         /// What is wrong.
         error: TripodError,
+    },
+    /// The fields make no Multipteron.
+    #[error("{file}: {error}")]
+    Multipteron {
+        /// The file.
+        file: String,
+        /// What is wrong.
+        error: MultipteronError,
     },
     /// The fields make no triad.
     #[error("{file}: {error}")]

@@ -6,7 +6,7 @@ use super::error::{FieldProblem, FileError};
 use super::group_file::{ground, link_pair, status_name, whole};
 use super::reader::Field;
 use super::tree::Tree;
-use crate::linkage::{Linkage, LinkageAssemblies, LinkageJoint};
+use crate::linkage::{Linkage, LinkageAssemblies, LinkageJoint, LinkageJointKind};
 
 /// What a linkage file calls itself.
 const LINKAGE_SCHEMA: &str = "assur/linkage/1";
@@ -21,14 +21,15 @@ pub fn is_linkage(text: &str, file: &str) -> bool {
 /// The linkage in the text of a linkage file; `file` is what errors call it, and its ending says what it is.
 ///
 /// # Errors
-/// One line that names file, field and value, or the part that is wrong. Sliders are not covered and named as such.
+/// One line that names file, field and value, or the part that is wrong.
 ///
 /// ```
 /// use assur::exchange::parse_linkage;
 /// let joint = r#"{"type":"P","links":[0,1],"at":[0,0],"direction":[1,0]}"#;
 /// let text = format!(r#"{{"schema":"assur/linkage/1","links":2,"joints":[{joint}]}}"#);
 /// let error = parse_linkage(&text, "l.json").unwrap_err();
-/// assert!(error.to_string().starts_with("l.json: joints[0].type: \"P\" must be R"));
+/// assert_eq!(error.to_string(),
+///     "l.json: links 1: still movable with the drivers held, mobility 1; another driven joint is needed");
 /// ```
 pub fn parse_linkage(text: &str, file: &str) -> Result<Linkage, FileError> {
     let tree = Tree::parse(text, file)?;
@@ -43,11 +44,18 @@ pub fn parse_linkage(text: &str, file: &str) -> Result<Linkage, FileError> {
 
 fn read_joint(field: &Field) -> Result<LinkageJoint, FileError> {
     let table = field.table(&["type", "links", "at", "direction", "driven"])?;
-    let kind = table.need("type", "R or P")?;
-    if kind.one_of(&["R", "P"])? == "P" {
-        let (expected, found) = ("R: linkages with sliders are not covered".to_owned(), kind.tree().to_string());
-        return Err(kind.error(FieldProblem::Kind { expected, found }));
-    }
+    let slides = table.need("type", "R or P")?.one_of(&["R", "P"])? == "P";
+    let kind = match (slides, table.get("direction")) {
+        (true, _) => {
+            let direction = table.need("direction", "two numbers, since the joint slides")?.vector()?;
+            LinkageJointKind::Prismatic { direction }
+        }
+        (false, None) => LinkageJointKind::Revolute,
+        (false, Some(field)) => {
+            let (expected, found) = ("left out: only a joint of type P has one".to_owned(), field.tree().to_string());
+            return Err(field.error(FieldProblem::Kind { expected, found }));
+        }
+    };
     let driven = match table.get("driven") {
         None => false,
         Some(field) => match field.tree() {
@@ -59,10 +67,10 @@ fn read_joint(field: &Field) -> Result<LinkageJoint, FileError> {
         },
     };
     let links = link_pair(&table.need("links", "two links")?)?;
-    Ok(LinkageJoint { links, at: table.need("at", "two numbers")?.vector()?, driven })
+    Ok(LinkageJoint { links, at: table.need("at", "two numbers")?.vector()?, kind, driven })
 }
 
-/// Every assembly of a linkage, as the tree of its groups' assemblies. Angles in radians.
+/// Every assembly of a linkage, as the tree of its groups' assemblies. Angles in radians, lengths those of the file.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LinkageReport {
     schema: &'static str,
@@ -73,6 +81,8 @@ pub struct LinkageReport {
     /// The tree: parents before children, by their places in this list.
     nodes: Vec<NodeEntry>,
     assemblies: Vec<AssemblyEntry>,
+    /// Branches of the tree that end at a group without a real assembly.
+    dead_ends: usize,
     /// How many assemblies there are.
     pub count: usize,
 }
@@ -88,6 +98,7 @@ struct NodeEntry {
     group: usize,
     parent: Option<usize>,
     number: usize,
+    multiplicity: usize,
     status: &'static str,
 }
 
@@ -97,6 +108,8 @@ struct AssemblyEntry {
     choice: Vec<usize>,
     /// `[x, y, phi]` of each link from the reference assembly.
     poses: Vec<[f64; 3]>,
+    /// Displacement of each joint from the reference assembly, in file order.
+    displacements: Vec<f64>,
     residual: f64,
 }
 
@@ -108,11 +121,13 @@ impl LinkageReport {
             group: node.group,
             parent: node.parent,
             number: node.number,
+            multiplicity: node.multiplicity,
             status: status_name(node.status),
         });
         let assemblies = answer.assemblies.iter().map(|assembly| AssemblyEntry {
             choice: assembly.choice.clone(),
             poses: assembly.poses.clone(),
+            displacements: assembly.displacements.clone(),
             residual: assembly.residual,
         });
         Self {
@@ -122,6 +137,7 @@ impl LinkageReport {
             groups: groups.collect(),
             nodes: nodes.collect(),
             assemblies: assemblies.collect(),
+            dead_ends: answer.dead_ends,
             count: answer.assemblies.len(),
         }
     }

@@ -52,6 +52,18 @@ pub enum PathFileError {
         /// The text found.
         found: String,
     },
+    /// A named value is no finite number.
+    #[error("{file}: row {row}: {name}: \"{found}\" must be a finite number")]
+    Named {
+        /// The file.
+        file: String,
+        /// Row of data, from 1.
+        row: usize,
+        /// The column.
+        name: &'static str,
+        /// The text found.
+        found: String,
+    },
 }
 
 /// Reads rows of inputs for a manipulator: CSV with the header `q1,q2,q3`, or JSON lines of lists where the name ends in `.jsonl`; angles in `unit`.

@@ -6,7 +6,7 @@ use super::error::{FieldProblem, FileError, nearest};
 use super::tree::Tree;
 
 /// What files call themselves, with the command that takes each.
-const KINDS: [(&str, &str); 8] = [
+const KINDS: [(&str, &str); 9] = [
     ("assur/manipulator/1", "forward"),
     ("assur/triad/1", "triad"),
     ("assur/forward/1", "verify"),
@@ -15,6 +15,7 @@ const KINDS: [(&str, &str); 8] = [
     ("assur/coupler/1", "coupler"),
     ("assur/hana/1", "hana"),
     ("assur/tripod/1", "tripod"),
+    ("assur/multipteron/1", "multipteron"),
 ];
 
 /// A value and where it stands.

@@ -131,11 +131,11 @@ fn unsound(file: &str, error: TripodError) -> FileError {
     FileError::Spatial { file: file.to_owned(), error }
 }
 
-fn name(root: &Table) -> Result<String, FileError> {
+pub(super) fn name(root: &Table) -> Result<String, FileError> {
     root.get("name").map_or(Ok(String::new()), |field| field.text("a text").map(str::to_owned))
 }
 
-fn angle_unit(root: &Table) -> Result<AngleUnit, FileError> {
+pub(super) fn angle_unit(root: &Table) -> Result<AngleUnit, FileError> {
     let unit = root.get("angle_unit").map(|field| field.one_of(&["rad", "deg"])).transpose()?;
     Ok(if unit == Some("deg") { AngleUnit::Deg } else { AngleUnit::Rad })
 }

@@ -5,12 +5,13 @@ use serde_json::{Value, json};
 
 use crate::solve::Account;
 use crate::spatial::{
-    ArcRegion, Capability, CapabilityMap, CapabilityStop, CapabilitySupremum, HanaAssemblies, HanaPose, HanaVelocity,
-    HanaViolation, HanaWays, MixedReach, MixedSingularity, SpatialError, Tilt, TiltLimit, TripodAssemblies,
-    TripodAssembly, TripodError, TripodPose, TripodReach, TripodVelocity, WorkspaceArc,
+    ArcRegion, Capability, CapabilityMap, CapabilityStop, CapabilitySupremum, Counted, DeterminantPoint,
+    HanaAssemblies, HanaPose, HanaVelocity, HanaViolation, HanaWays, MixedReach, MixedSingularity, SpatialError, Tilt,
+    TiltLimit, TripodAssemblies, TripodAssembly, TripodDesign, TripodError, TripodPose, TripodReach, TripodVelocity,
+    WorkspaceArc, WorkspaceCurve,
 };
 
-fn text(document: &Value) -> String {
+pub(super) fn text(document: &Value) -> String {
     format!("{document:#}\n")
 }
 
@@ -18,7 +19,7 @@ fn hana_pose(pose: &HanaPose) -> [f64; 3] {
     [pose.y, pose.z, pose.phi]
 }
 
-fn account(account: &Account) -> Value {
+pub(super) fn account(account: &Account) -> Value {
     json!({
         "degree": account.degree, "real": account.real, "complex": account.complex, "at_infinity": account.at_infinity,
         "rejected": account.rejected, "self_motion": account.self_motion, "undecided": account.undecided,
@@ -124,12 +125,26 @@ pub fn hana_velocity_json(
 
 /// A workspace of HANA in the plane `Oyz`: coordinates are `(y, z)`.
 pub fn hana_workspace_json(kind: &str, region: &ArcRegion) -> String {
-    let arc = |arc: &WorkspaceArc| match arc.circle {
-        Some(c) => json!({
-            "curve": "circle", "start": arc.start, "end": arc.end, "center": c.center, "radius": c.radius,
-            "start_angle": c.start_angle, "end_angle": c.end_angle, "active": [arc.active],
-        }),
-        None => json!({ "curve": "line", "start": arc.start, "end": arc.end, "active": [arc.active] }),
+    let arc = |arc: &WorkspaceArc| {
+        let mut piece = json!({
+            "curve": arc.curve.name(), "start": arc.start, "end": arc.end, "length": arc.length, "active": arc.active,
+        });
+        match arc.curve {
+            WorkspaceCurve::Line => {}
+            WorkspaceCurve::Circle(c) => {
+                piece["center"] = json!(c.center);
+                piece["radius"] = json!(c.radius);
+                piece["start_angle"] = json!(c.start_angle);
+                piece["end_angle"] = json!(c.end_angle);
+            }
+            // (z - height)² = (a0 + a1 l)(b0 + b1 l), l = sqrt(L² - y²)
+            WorkspaceCurve::Spiric(curve) | WorkspaceCurve::LevelLink(curve) => {
+                piece["height"] = json!(curve.height);
+                piece["L"] = json!(curve.link);
+                piece["factors"] = json!(curve.factors);
+            }
+        }
+        piece
     };
     let loops: Vec<Value> = region
         .loops
@@ -138,7 +153,7 @@ pub fn hana_workspace_json(kind: &str, region: &ArcRegion) -> String {
         .collect();
     text(&json!({
         "schema": "assur/workspace/1", "kind": kind, "status": "complete", "area": region.area, "perimeter": region.perimeter,
-        "centroid": region.centroid, "bbox": region.bbox, "components": loops.len(), "holes": 0, "loops": loops,
+        "centroid": region.centroid, "bbox": region.bbox, "components": region.components(), "holes": region.holes(), "loops": loops,
     }))
 }
 
@@ -180,7 +195,7 @@ pub fn hana_capability_json(
     text(&document)
 }
 
-fn tripod_pose(pose: &TripodPose) -> Value {
+pub(super) fn tripod_pose(pose: &TripodPose) -> Value {
     json!({ "position": pose.position.as_slice(), "rotation": rows(pose.rotation.matrix()) })
 }
 
@@ -207,6 +222,7 @@ pub fn tripod_inverse_json(
 
 /// Every way to put a three-legged robot together.
 pub fn tripod_forward_json(answer: &TripodAssemblies) -> String {
+    let proof = if answer.counted == Counted::Exactly { "proven" } else { "not_asked" };
     let list = |modes: &[TripodAssembly]| -> Value {
         modes
             .iter()
@@ -214,7 +230,7 @@ pub fn tripod_forward_json(answer: &TripodAssemblies) -> String {
                 let legs: Vec<usize> = (1..=3).filter(|&leg| mode.parallel_axes[leg - 1]).collect();
                 json!({
                     "pose": tripod_pose(&mode.pose), "multiplicity": mode.multiplicity, "residual": mode.residual,
-                    "parallel_axes": legs,
+                    "parallel_axes": legs, "proof": proof,
                 })
             })
             .collect()
@@ -254,6 +270,38 @@ pub fn tripod_velocity_json(
         });
     }
     text(&document)
+}
+
+/// `det J` over the elevations of a design: one curve a pose. `null` where the Jacobian has a pole (type 1).
+pub fn tripod_determinant_json(
+    design: TripodDesign,
+    distances: [f64; 2],
+    curves: &[(TripodPose, Vec<DeterminantPoint>)],
+) -> String {
+    let point =
+        |p: &DeterminantPoint| json!({ "elevation": p.elevation, "between": p.between, "determinant": p.determinant });
+    let curve = |(pose, points): &(TripodPose, Vec<DeterminantPoint>)| json!({ "pose": tripod_pose(pose), "points": points.iter().map(point).collect::<Vec<_>>() });
+    text(&json!({
+        "schema": "assur/tripod-determinant/1", "design": design.name(), "d1": distances[0], "d2": distances[1],
+        "curves": curves.iter().map(curve).collect::<Vec<_>>(),
+    }))
+}
+
+/// The same as CSV, angles in radians: one row an elevation, one column a pose; empty where the Jacobian has a pole.
+pub fn tripod_determinant_csv(curves: &[(TripodPose, Vec<DeterminantPoint>)]) -> String {
+    let mut text = "elevation,between".to_owned();
+    (1..=curves.len()).for_each(|number| text.push_str(&format!(",det_J_{number}")));
+    text.push('\n');
+    let rows = curves.first().map_or(&[][..], |(_, points)| points);
+    for (row, point) in rows.iter().enumerate() {
+        text.push_str(&format!("{},{}", point.elevation, point.between));
+        for (_, points) in curves {
+            let value = points.get(row).and_then(|point| point.determinant);
+            text.push_str(&value.map_or(",".to_owned(), |value| format!(",{value}")));
+        }
+        text.push('\n');
+    }
+    text
 }
 
 /// What ends a tilt, in words.

@@ -1,7 +1,8 @@
 //! Planar Assur groups: what is left of a mechanism when its drivers are held.
 //!
 //! A [`Triad`] is a platform on three [`Dyad`]s; [`Triad::assemble`] finds every way to put it together. A [`TwoLinkGroup`] is one of
-//! the five groups of class II. A [`Truss`] is a group of any size with revolute joints, together with its ground.
+//! the five groups of class II. A [`Truss`] is a group of any size with revolute joints, together with its ground. A [`Linkage`]
+//! is taken apart into such groups and put together again.
 
 mod assemble;
 mod assemblies;
@@ -21,6 +22,7 @@ mod group;
 mod judge;
 mod local;
 mod loop_box;
+mod loops;
 mod many;
 mod name;
 mod numbers;
@@ -48,7 +50,8 @@ pub use coupler::{
     InputRange, Intersection, Intersections, Partner, SideNumbers, coupler_equation,
 };
 pub use decompose::{
-    Linkage, LinkageAssemblies, LinkageAssembly, LinkageError, LinkageGroup, LinkageJoint, LinkageNode,
+    GroupError, Linkage, LinkageAssemblies, LinkageAssembly, LinkageError, LinkageGroup, LinkageJoint,
+    LinkageJointKind, LinkageNode,
 };
 pub use dyad::{Guide, TwoLinkAssemblies, TwoLinkAssembly, TwoLinkError, TwoLinkGroup, TwoLinkSpecial};
 pub use group::{Dyad, Offset, Pose, Triad, TriadError, triad_degree};

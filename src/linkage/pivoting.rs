@@ -1,28 +1,36 @@
-//! Small complex linear systems that may have lost a rank.
+//! Small complex linear systems that may have lost a rank, solved without allocation.
 
+use arrayvec::ArrayVec;
 use num_complex::Complex64;
+
+/// The largest system: five loops, taken twice.
+pub(super) const MOST_UNKNOWNS: usize = 10;
+
+/// Numbers of a small system.
+pub(super) type Small = ArrayVec<Complex64, MOST_UNKNOWNS>;
 
 /// A linear system solved.
 pub(super) struct Solved {
-    pub(super) solution: Vec<Complex64>,
+    pub(super) solution: Small,
     /// A vector that the matrix takes to nearly nothing, where it has lost a rank.
-    pub(super) kernel: Option<Vec<Complex64>>,
+    pub(super) kernel: Option<Small>,
 }
 
 /// Gauss elimination with complete pivoting; unknowns whose pivots fall below `rank` times the largest stay zero.
 ///
-/// **Shape:** square, row by row. `None` for a matrix that is zero or not finite.
+/// **Shape:** square, row by row, at most [`MOST_UNKNOWNS`] wide. `None` for a matrix that is zero or not finite.
 pub(super) fn solve(matrix: &mut [Complex64], right: &mut [Complex64], size: usize, rank: f64) -> Option<Solved> {
-    let mut columns: Vec<usize> = (0..size).collect();
+    assert!(size <= MOST_UNKNOWNS, "systems are small");
+    let mut columns: [usize; MOST_UNKNOWNS] = std::array::from_fn(|k| k);
     let mut largest = 0.0;
     let mut kept = size;
     for k in 0..size {
         let mut best = (k, k, -1.0);
         for i in k..size {
-            for j in k..size {
-                let modulus = matrix[i * size + j].norm_sqr();
-                if modulus > best.2 {
-                    best = (i, j, modulus);
+            for (j, entry) in matrix[i * size..(i + 1) * size].iter().enumerate().skip(k) {
+                let square = entry.norm_sqr();
+                if square > best.2 {
+                    best = (i, j, square);
                 }
             }
         }
@@ -38,9 +46,8 @@ pub(super) fn solve(matrix: &mut [Complex64], right: &mut [Complex64], size: usi
             break;
         }
         if row != k {
-            for j in 0..size {
-                matrix.swap(row * size + j, k * size + j);
-            }
+            let (above, below) = matrix.split_at_mut(row * size);
+            above[k * size..(k + 1) * size].swap_with_slice(&mut below[..size]);
             right.swap(row, k);
         }
         if column != k {
@@ -50,21 +57,22 @@ pub(super) fn solve(matrix: &mut [Complex64], right: &mut [Complex64], size: usi
             columns.swap(column, k);
         }
         let inverse = matrix[k * size + k].inv();
-        for i in k + 1..size {
-            let factor = matrix[i * size + k] * inverse;
-            if factor == Complex64::ZERO {
+        let (above, below) = matrix.split_at_mut((k + 1) * size);
+        let above = &above[k * size + k + 1..];
+        for (i, row) in (k + 1..).zip(below.chunks_exact_mut(size)) {
+            if row[k] == Complex64::ZERO {
                 continue;
             }
-            for j in k + 1..size {
-                let entry = matrix[k * size + j];
-                matrix[i * size + j] -= factor * entry;
+            let factor = row[k] * inverse;
+            for (entry, top) in row[k + 1..].iter_mut().zip(above) {
+                *entry -= factor * top;
             }
             let value = right[k];
             right[i] -= factor * value;
         }
     }
     let back = |value: &dyn Fn(usize) -> Complex64| {
-        let mut found = vec![Complex64::ZERO; size];
+        let mut found: Small = std::iter::repeat_n(Complex64::ZERO, size).collect();
         for k in (0..kept).rev() {
             let sum = (k + 1..kept).fold(value(k), |sum, j| sum - matrix[k * size + j] * found[columns[j]]);
             found[columns[k]] = sum / matrix[k * size + k];
@@ -78,6 +86,11 @@ pub(super) fn solve(matrix: &mut [Complex64], right: &mut [Complex64], size: usi
         kernel
     });
     Some(Solved { solution, kernel })
+}
+
+/// The modulus, for numbers whose squares stay within range: several times as fast as `hypot`.
+pub(super) fn modulus(z: Complex64) -> f64 {
+    z.norm_sqr().sqrt()
 }
 
 #[cfg(test)]

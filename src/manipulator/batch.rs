@@ -36,19 +36,8 @@ impl ModesBatch {
             statuses: vec![None; rows],
             errors: Vec::new(),
         };
-        let shares = out
-            .poses
-            .par_chunks_mut(WIDTH * SHARE)
-            .zip(out.counts.par_chunks_mut(SHARE))
-            .zip(out.statuses.par_chunks_mut(SHARE))
-            .enumerate();
-        let errors = shares.map(|(number, ((poses, counts), statuses))| {
-            let mut share = Share { poses, counts, statuses, errors: Vec::new() };
-            solve(SHARE * number, &mut share);
-            share.errors
-        });
-        let errors: Vec<Vec<(usize, LockError)>> = errors.collect();
-        out.errors = errors.into_iter().flatten().collect();
+        let places = ModesPlaces { poses: &mut out.poses, counts: &mut out.counts, statuses: &mut out.statuses };
+        out.errors = places.fill(solve);
         out
     }
 
@@ -80,6 +69,38 @@ impl ModesBatch {
     /// Rows, from 0, that could not be asked, each with the reason.
     pub fn errors(&self) -> &[(usize, LockError)] {
         &self.errors
+    }
+}
+
+/// Where the modes of many rows are written: arrays of the caller's, with as many rows as there are rows of inputs.
+#[derive(Debug)]
+pub struct ModesPlaces<'a> {
+    /// 18 numbers a row, as [`ModesBatch::poses`]; what lies beyond a row's count is left as it is.
+    pub poses: &'a mut [f64],
+    /// As [`ModesBatch::counts`].
+    pub counts: &'a mut [u8],
+    /// As [`ModesBatch::statuses`].
+    pub statuses: &'a mut [Option<Status>],
+}
+
+impl ModesPlaces<'_> {
+    fn fill(self, solve: impl Fn(usize, &mut Share) + Sync) -> Vec<(usize, LockError)> {
+        let shares = self
+            .poses
+            .par_chunks_mut(WIDTH * SHARE)
+            .zip(self.counts.par_chunks_mut(SHARE))
+            .zip(self.statuses.par_chunks_mut(SHARE))
+            .enumerate();
+        let errors = shares.map(|(number, ((poses, counts), statuses))| {
+            // Of a row with an error nothing is known.
+            counts.fill(0);
+            statuses.fill(None);
+            let mut share = Share { poses, counts, statuses, errors: Vec::new() };
+            solve(SHARE * number, &mut share);
+            share.errors
+        });
+        let errors: Vec<Vec<(usize, LockError)>> = errors.collect();
+        errors.into_iter().flatten().collect()
     }
 }
 
@@ -151,10 +172,37 @@ impl Manipulator {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn forward_batch(&self, inputs: &[f64]) -> ModesBatch {
+        let (rows, solve) = self.share_by_share(inputs);
+        ModesBatch::of_shares(rows, solve)
+    }
+
+    /// [`Manipulator::forward_batch`] into arrays of the caller's; the errors are given back, rows counted from 0.
+    ///
+    /// # Panics
+    /// Where the length of `inputs` is no multiple of the number of actuated joints, or an array has another number of rows.
+    ///
+    /// ```
+    /// use assur::{Manipulator, ModesPlaces};
+    /// let (robot, inputs) = Manipulator::of_family("3-RPR")?;
+    /// let (mut poses, mut counts, mut statuses) = ([f64::NAN; 18], [0], [None]);
+    /// let places = ModesPlaces { poses: &mut poses, counts: &mut counts, statuses: &mut statuses };
+    /// assert!(robot.forward_batch_into(&inputs, places).is_empty());
+    /// assert_eq!(counts, robot.forward_batch(&inputs).counts());
+    /// # Ok::<(), assur::FamilyError>(())
+    /// ```
+    pub fn forward_batch_into(&self, inputs: &[f64], places: ModesPlaces) -> Vec<(usize, LockError)> {
+        let (rows, solve) = self.share_by_share(inputs);
+        let lengths = [places.poses.len(), places.counts.len(), places.statuses.len()];
+        assert_eq!(lengths, [WIDTH * rows, rows, rows], "numbers, counts and statuses for {rows} rows");
+        places.fill(solve)
+    }
+
+    /// How many rows there are, and what solves those of a share, given the number of its first.
+    fn share_by_share(&self, inputs: &[f64]) -> (usize, impl Fn(usize, &mut Share) + Sync) {
         let width = self.actuated_joints().count();
         assert!(inputs.len().is_multiple_of(width), "{} inputs are no rows of {width}", inputs.len());
         let held_by_all = self.legs.iter().all(|leg| leg.actuated.contains(&true));
-        ModesBatch::of_shares(inputs.len() / width, |first, share| {
+        let solve = move |first: usize, share: &mut Share| {
             let (mut triads, mut places) = (Vec::with_capacity(SHARE), Vec::with_capacity(SHARE));
             for row in 0..share.counts.len() {
                 let inputs = &inputs[width * (first + row)..width * (first + row + 1)];
@@ -180,7 +228,8 @@ impl Manipulator {
                 }
             }
             real_modes_of_many(&triads, |place, poses, status| share.put(places[place], poses, status));
-        })
+        };
+        (inputs.len() / width, solve)
     }
 }
 

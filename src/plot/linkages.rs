@@ -5,7 +5,7 @@ use nalgebra::{Isometry2, Point2, Vector2};
 use super::scene::{Look, Mark, Scene};
 use super::sheet::sheet;
 use super::trusses::around_their_middle;
-use crate::linkage::{Linkage, LinkageAssemblies, LinkageAssembly};
+use crate::linkage::{Linkage, LinkageAssemblies, LinkageAssembly, LinkageJoint, LinkageJointKind};
 
 /// Panels of one sheet; more would not be looked at.
 const MOST_PANELS: usize = 60;
@@ -29,21 +29,39 @@ pub fn draw_linkage(linkage: &Linkage, answer: &LinkageAssemblies) -> String {
     sheet("Linkage", &format!("{groups}  ·  {} assemblies{more}", answer.assemblies.len()), &scenes)
 }
 
+/// Pins at turning joints; at a sliding one its guide on the one link and a block on the other.
 fn marks(linkage: &Linkage, assembly: &LinkageAssembly) -> Vec<Mark> {
     let mut marks = Vec::new();
-    for (link, &[x, y, phi]) in assembly.poses.iter().enumerate() {
-        let frame = Isometry2::new(Vector2::new(x, y), phi);
+    let frames: Vec<Isometry2<f64>> =
+        assembly.poses.iter().map(|&[x, y, phi]| Isometry2::new(Vector2::new(x, y), phi)).collect();
+    let placed = |link: usize, at: Vector2<f64>| (frames[link] * Point2::from(at)).coords;
+    for joint in linkage.joints() {
+        let look = Look { actuated: joint.driven, violated: false };
+        let [first, second] = joint.links.map(|link| placed(link, joint.at));
+        match joint.kind {
+            LinkageJointKind::Revolute => marks.push(Mark::Pin { at: first, look }),
+            LinkageJointKind::Prismatic { direction } => {
+                // The guide belongs to the ground where it can, else to the first link.
+                let (guide, from, to) =
+                    if joint.links[1] == linkage.ground() { (1, second, first) } else { (0, first, second) };
+                let along = frames[joint.links[guide]].rotation * direction.normalize();
+                let fixed = joint.links[guide] == linkage.ground();
+                marks.push(Mark::Rail { from, to, along, fixed });
+                marks.push(Mark::Block { at: to, along, look });
+            }
+        }
+    }
+    for link in 0..linkage.links() {
         let own = linkage.joints().iter().filter(|joint| joint.links.contains(&link));
-        let places: Vec<(Vector2<f64>, bool)> =
-            own.map(|joint| ((frame * Point2::from(joint.at)).coords, joint.driven)).collect();
-        let look = |actuated| Look { actuated, violated: false };
-        marks.extend(places.iter().map(|&(at, driven)| Mark::Pin { at, look: look(driven) }));
-        let corners: Vec<Vector2<f64>> = places.iter().map(|(at, _)| *at).collect();
-        if link == linkage.ground() {
+        let ground = link == linkage.ground();
+        let turning = |joint: &&LinkageJoint| !ground || joint.kind == LinkageJointKind::Revolute;
+        let corners: Vec<Vector2<f64>> = own.filter(turning).map(|joint| placed(link, joint.at)).collect();
+        if ground {
             marks.extend(corners.iter().map(|&at| Mark::Ground { at }));
             continue;
         }
         match corners[..] {
+            [_] | [] => {}
             [from, to] => marks.push(Mark::Bar { from, to }),
             _ => marks.push(Mark::Body { corners: around_their_middle(corners) }),
         }

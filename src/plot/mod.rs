@@ -7,20 +7,27 @@
 //! ground, filled in colour is actuated, ringed is outside its limits.
 
 mod couplers;
+mod curves;
 mod linkages;
 mod modes;
 mod plane;
+mod robots;
 mod scene;
 mod sheet;
 mod spatial;
 mod symbols;
 mod triads;
 mod trusses;
+mod workspaces;
 
 pub use couplers::draw_coupler;
+pub use curves::{NamedCurve, draw_curves};
 pub use linkages::draw_linkage;
-pub use modes::draw_modes;
+pub use modes::{draw_modes, mode_marks};
 pub use plane::{draw_path, draw_singularities};
+pub use robots::{PosedRobot, draw_hana_poses, draw_tripod_poses};
+pub use scene::{Look, Mark};
 pub use spatial::{draw_hana, draw_tilt_sections};
 pub use triads::draw_assemblies;
-pub use trusses::draw_truss;
+pub use trusses::{draw_truss, truss_marks};
+pub use workspaces::{WorkspaceLayer, draw_workspaces};

@@ -1,10 +1,10 @@
 //! The assembly modes of a manipulator: each chain drawn from its nine joint values.
 
-use nalgebra::{Isometry2, Translation2, UnitComplex, Vector2};
+use nalgebra::{Isometry2, Vector2};
 
 use super::scene::{Look, Mark, Scene, caption, heading, length, number, summary};
 use super::sheet::sheet;
-use crate::manipulator::{AssemblyModes, JointKind, Leg, Manipulator, ManipulatorMode, Placement};
+use crate::manipulator::{AssemblyModes, JointKind, Leg, Manipulator, ManipulatorMode};
 
 /// Every assembly mode of a manipulator as one SVG document, small multiples on one scale.
 ///
@@ -26,7 +26,19 @@ pub fn draw_modes(robot: &Manipulator, answer: &AssemblyModes) -> String {
     sheet(&title, &format!("{family}inputs {inputs}  ·  {count}"), &scenes)
 }
 
-fn mode_scene(robot: &Manipulator, mode: &ManipulatorMode, number: usize) -> Scene {
+/// The symbols of one mode, from the back of the picture to its front; nothing is drawn for a caller that has a canvas of its own.
+///
+/// **Units and frame**: lengths of the mechanism, in the base frame.
+///
+/// ```
+/// use assur::{Manipulator, plot::{Mark, mode_marks}};
+/// let (robot, inputs) = Manipulator::of_family("3-RPR")?;
+/// let mode = &robot.forward(&inputs)?.modes[0];
+/// let struts = mode_marks(&robot, mode).iter().filter(|mark| matches!(mark, Mark::Telescope { .. })).count();
+/// assert_eq!(struts, 3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn mode_marks(robot: &Manipulator, mode: &ManipulatorMode) -> Vec<Mark> {
     let pose = mode.mode.pose;
     let corners = robot.legs.iter().map(|leg| pose.place(leg.platform.at)).collect();
     let mut marks = vec![Mark::Body { corners }, Mark::Frame { pose: pose.isometry() }];
@@ -37,12 +49,18 @@ fn mode_scene(robot: &Manipulator, mode: &ManipulatorMode, number: usize) -> Sce
         };
         draw_chain(&mut marks, leg, values, index + 1, look);
     }
+    marks.sort_by_key(Mark::layer);
+    marks
+}
+
+fn mode_scene(robot: &Manipulator, mode: &ManipulatorMode, number: usize) -> Scene {
     let caption = caption(&mode.mode, &mode.signs, !mode.violations.is_empty());
-    Scene { marks, number: Some(number), caption, pose: Some(pose) }
+    Scene { marks: mode_marks(robot, mode), number: Some(number), caption, pose: Some(mode.mode.pose) }
 }
 
 fn draw_chain(marks: &mut Vec<Mark>, leg: &Leg, values: &[f64; 3], number: usize, look: impl Fn(usize) -> Look) {
-    let [inner, outer] = chain(leg, values);
+    let frames = leg.frames(values);
+    let (inner, outer) = (frames.map(|[before, _]| before), frames.map(|[_, after]| after));
     let at = |frame: &Isometry2<f64>| frame.translation.vector;
     let along = |frame: &Isometry2<f64>| frame.rotation * Vector2::x();
     marks.push(Mark::Number { at: at(&inner[0]), leg: number });
@@ -70,29 +88,6 @@ fn draw_chain(marks: &mut Vec<Mark>, leg: &Leg, values: &[f64; 3], number: usize
     for joint in 0..2 {
         marks.push(Mark::Bar { from: at(&outer[joint]), to: at(&inner[joint + 1]) });
     }
-}
-
-/// The frames before each joint and after it, in the base frame.
-fn chain(leg: &Leg, values: &[f64; 3]) -> [[Isometry2<f64>; 3]; 2] {
-    let mut frame = rigid_motion(&leg.base);
-    let [mut inner, mut outer] = [[Isometry2::identity(); 3]; 2];
-    for joint in 0..3 {
-        inner[joint] = frame;
-        frame *= match leg.joints[joint] {
-            JointKind::Revolute => Isometry2::rotation(values[joint]),
-            JointKind::Prismatic => Isometry2::translation(values[joint], 0.0),
-        };
-        outer[joint] = frame;
-        if let Some(link) = leg.links.get(joint) {
-            frame *= rigid_motion(link);
-        }
-    }
-    [inner, outer]
-}
-
-fn rigid_motion(placement: &Placement) -> Isometry2<f64> {
-    let angle = placement.direction.y.atan2(placement.direction.x);
-    Isometry2::from_parts(Translation2::from(placement.at), UnitComplex::new(angle))
 }
 
 /// The base alone, where there is no mode to draw.

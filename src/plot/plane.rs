@@ -103,7 +103,7 @@ impl Chart {
 }
 
 /// Round numbers in a range, four to nine of them.
-fn ticks(low: f64, high: f64) -> Vec<f64> {
+pub(super) fn ticks(low: f64, high: f64) -> Vec<f64> {
     let decade = 10_f64.powf(((high - low) / 4.0).log10().floor());
     let step = [5.0, 2.0, 1.0].map(|s| s * decade).into_iter().find(|s| *s <= (high - low) / 4.0).unwrap_or(decade);
     let first = (low / step).ceil() as i64;

@@ -8,33 +8,81 @@ use crate::solve::Account;
 
 /// How a joint looks.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Look {
-    pub(super) actuated: bool,
+pub struct Look {
+    /// Driven.
+    pub actuated: bool,
     /// Outside its limits.
-    pub(super) violated: bool,
+    pub violated: bool,
 }
 
 /// One symbol. Listed from the back of the picture to its front.
 #[derive(Clone, Debug)]
-pub(super) enum Mark {
+pub enum Mark {
     /// The platform.
-    Body { corners: Vec<Vector2<f64>> },
+    Body {
+        /// Its corners.
+        corners: Vec<Vector2<f64>>,
+    },
     /// A guide of a slider, fixed to the ground (hatched) or to the platform.
-    Rail { from: Vector2<f64>, to: Vector2<f64>, along: Vector2<f64>, fixed: bool },
+    Rail {
+        /// Where the slider would be at zero.
+        from: Vector2<f64>,
+        /// Where the slider is.
+        to: Vector2<f64>,
+        /// Its direction, of length one.
+        along: Vector2<f64>,
+        /// Whether it is fixed to the ground.
+        fixed: bool,
+    },
     /// The ground under a pivot.
-    Ground { at: Vector2<f64> },
+    Ground {
+        /// The pivot.
+        at: Vector2<f64>,
+    },
     /// The number of a leg, at its base.
-    Number { at: Vector2<f64>, leg: usize },
+    Number {
+        /// The base point.
+        at: Vector2<f64>,
+        /// From 1.
+        leg: usize,
+    },
     /// A rigid link.
-    Bar { from: Vector2<f64>, to: Vector2<f64> },
+    Bar {
+        /// One end.
+        from: Vector2<f64>,
+        /// The other.
+        to: Vector2<f64>,
+    },
     /// A slider between two links.
-    Telescope { from: Vector2<f64>, to: Vector2<f64>, look: Look },
+    Telescope {
+        /// One end.
+        from: Vector2<f64>,
+        /// The other.
+        to: Vector2<f64>,
+        /// How it looks.
+        look: Look,
+    },
     /// A slider on its guide.
-    Block { at: Vector2<f64>, along: Vector2<f64>, look: Look },
+    Block {
+        /// Its place.
+        at: Vector2<f64>,
+        /// The direction of its guide, of length one.
+        along: Vector2<f64>,
+        /// How it looks.
+        look: Look,
+    },
     /// A revolute joint.
-    Pin { at: Vector2<f64>, look: Look },
+    Pin {
+        /// Its place.
+        at: Vector2<f64>,
+        /// How it looks.
+        look: Look,
+    },
     /// The platform's frame.
-    Frame { pose: Isometry2<f64> },
+    Frame {
+        /// The motion from the base frame to it.
+        pose: Isometry2<f64>,
+    },
 }
 
 impl Mark {

@@ -20,7 +20,7 @@ pub fn draw_truss(truss: &Truss, answer: &TrussAssemblies) -> String {
     let mut scenes: Vec<Scene> = (1..)
         .zip(answer.real())
         .map(|(number, assembly)| Scene {
-            marks: marks(truss, assembly),
+            marks: truss_marks(truss, assembly),
             number: Some(number),
             caption: match assembly.multiplicity {
                 0 | 1 => String::new(),
@@ -44,8 +44,10 @@ pub fn draw_truss(truss: &Truss, answer: &TrussAssemblies) -> String {
     sheet(&title, &subtitle, &scenes)
 }
 
-/// Links with two joints as bars, others as bodies.
-fn marks(truss: &Truss, assembly: &TrussAssembly) -> Vec<Mark> {
+/// The symbols of one real assembly, from back to front: links with two joints as bars, others as bodies.
+///
+/// **Units and frame**: lengths of the mechanism, in the ground's frame.
+pub fn truss_marks(truss: &Truss, assembly: &TrussAssembly) -> Vec<Mark> {
     let mut marks = Vec::new();
     for link in 0..truss.links() {
         let joints = truss.joints_of_link(link, assembly);
@@ -60,6 +62,7 @@ fn marks(truss: &Truss, assembly: &TrussAssembly) -> Vec<Mark> {
             _ => marks.push(Mark::Body { corners: around_their_middle(places) }),
         }
     }
+    marks.sort_by_key(Mark::layer);
     marks
 }
 

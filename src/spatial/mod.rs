@@ -3,20 +3,25 @@
 //! [`Hana`] moves its platform in a plane and tilts it about one axis; its forward kinematics falls into two families of square roots. [`Tripod`] has six degrees
 //! of freedom; its orientation solves one polynomial of degree 8, its place three linear equations.
 
-mod arcs;
+mod bow;
 mod error;
 mod hana;
+mod region;
+mod remarks;
 mod tripod;
 
-pub use arcs::{ArcCircle, ArcRegion, WorkspaceArc};
+pub use bow::LinkCurve;
 pub use error::SpatialError;
 pub use hana::{
-    Capability, CapabilityMap, CapabilityStop, CapabilitySupremum, Hana, HanaAssemblies, HanaAssembly, HanaFamily,
-    HanaMode, HanaPose, HanaSingularKind, HanaSingularity, HanaUnreachable, HanaVelocity, HanaViolation, HanaWay,
-    HanaWays, HanaWorkspaceError, MixedReach, MixedSingularity,
+    Capability, CapabilityMap, CapabilityStop, CapabilitySupremum, Hana, HanaAssemblies, HanaAssembly,
+    HanaCapabilityError, HanaFamily, HanaMode, HanaPose, HanaSingularKind, HanaSingularity, HanaUnreachable,
+    HanaVelocity, HanaViolation, HanaWay, HanaWays, MixedReach, MixedSingularity,
 };
+pub use region::{ArcCircle, ArcRegion, WorkspaceArc, WorkspaceCurve};
+pub use remarks::SpatialRemark;
 pub use tripod::{
-    CartesianRobot, CartesianSingular, Hexapteron, Orientations, PlaneConditions, Quadrupteron, Tilt, TiltLimit,
-    Tripod, TripodAssemblies, TripodAssembly, TripodError, TripodLeg, TripodPose, TripodReach, TripodSingularity,
-    TripodStatus, TripodVelocity, Tripteron,
+    CartesianRobot, CartesianSingular, Counted, DeterminantPoint, Hexapteron, Multipteron, MultipteronError,
+    MultipteronPoses, Orientations, PlaneConditions, Quadrupteron, Tilt, TiltLimit, Tripod, TripodAssemblies,
+    TripodAssembly, TripodDesign, TripodError, TripodLeg, TripodPose, TripodReach, TripodSingularity, TripodStatus,
+    TripodVelocity, Tripteron,
 };

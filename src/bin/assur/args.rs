@@ -5,7 +5,9 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
+use crate::multipteron::MultipteronCommand;
 use crate::spatial::{HanaCommand, TripodCommand};
+use crate::workspaces::{SweepArgs, WorkspaceArgs};
 
 /// Every assembly mode of planar mechanisms.
 #[derive(Parser)]
@@ -31,7 +33,7 @@ pub(crate) enum Command {
     #[command(
         after_help = "Families: 3-RPR, 3-RRR, 3-PRR, 3-RRP, 3-PRP, 3-PPR, 3-RPP; with the actuated joint marked, \
         3-_R_RR; three different legs, R_P_R,_P_RR,_R_RR; \
-        the spatial robots hana and tripod.\nExample:  assur new 3-RPR --output arm.toml"
+        the spatial robots hana, tripod, tripod-inclined, tripod-upright, tripteron, quadrupteron, hexapteron.\nExample:  assur new 3-RPR --output arm.toml"
     )]
     New {
         /// The family, as 3-RPR.
@@ -172,6 +174,24 @@ pub(crate) enum Command {
         #[command(flatten)]
         shown: Shown,
     },
+    /// Opens a page in the browser in which mechanisms are dragged: every assembly mode, at once.
+    #[command(
+        after_help = "The page is served to this machine only, at the address printed; it needs no network. An address printed before, in place of MODEL, \
+        takes up an explorer that was stopped: pages still open go on.\nExample:  assur explore examples/3-rpr.toml --inputs=14.98,15.38,12"
+    )]
+    Explore {
+        /// Model, coupler or group file; without it a 3-RPR.
+        model: Option<String>,
+        /// The actuator values to begin with: lengths and radians.
+        #[arg(long, value_name = "Q1,Q2,Q3", value_delimiter = ',', allow_hyphen_values = true)]
+        inputs: Vec<f64>,
+        /// The port; any free one without it.
+        #[arg(long)]
+        port: Option<u16>,
+        /// Only prints the address.
+        #[arg(long)]
+        no_open: bool,
+    },
     /// Describes a coupler curve and finds where it meets a line, a circle or another.
     #[command(after_help = "Example:  assur coupler examples/coupler.json --svg curve.svg")]
     Coupler {
@@ -208,6 +228,16 @@ pub(crate) enum Command {
         #[command(flatten)]
         asked: Asked,
     },
+    /// Finds where the reference point can be: exactly, as loops of arcs, segments and coupler curves.
+    #[command(after_help = "Legs RPR, RRR and PRR, in any mixture; every joint's range counts.\n\
+        Examples:  assur workspace examples/workspaces/table1-1a.toml maximal --svg reach.svg --dxf reach.dxf\n           \
+        assur workspace examples/workspaces/table1-2c.toml inclusive --from=0 --to=90 --overlay dextrous --overlay constant:30 --png reach.png\n           \
+        assur workspace examples/workspaces/table1-4a.toml maximal --optimise leg1.platform.at.x=-3:3")]
+    Workspace(WorkspaceArgs),
+    /// Measures workspaces over a grid of designs.
+    #[command(after_help = "Designs that cannot be asked are rows with a reason.\n\
+        Example:  assur sweep examples/workspaces/table1-1a.toml --vary leg1.platform.at.x=20:30:100 --report area:maximal,area:constant:240 --output areas.csv")]
+    Sweep(SweepArgs),
     /// Holds a report's poses, ours or another program's, against what can be proved.
     #[command(
         after_help = "REPORT: JSON or TOML with \"inputs\" and \"modes\" (each with a \"pose\") or \"poses\", a list of [x, y, phi]; radians.\n\
@@ -235,6 +265,11 @@ pub(crate) enum Command {
     Tripod {
         #[command(subcommand)]
         command: TripodCommand,
+    },
+    /// Tripteron, Quadrupteron and Hexapteron as models; the Pentapteron is not covered.
+    Multipteron {
+        #[command(subcommand)]
+        command: MultipteronCommand,
     },
     /// Prints a derivation worked through, or lists them.
     #[command(after_help = "Example:  assur derive --list")]

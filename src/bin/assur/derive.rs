@@ -27,16 +27,24 @@ mod degree_table;
 mod dixon_pencils;
 #[path = "../../../derivations/filter_bound.rs"]
 mod filter_bound;
+#[path = "../../../derivations/fold_rule.rs"]
+mod fold_rule;
 #[path = "../../../derivations/hana_forward.rs"]
 mod hana_forward;
+#[path = "../../../derivations/joint_ranges.rs"]
+mod joint_ranges;
 #[path = "../../../derivations/leg_reductions.rs"]
 mod leg_reductions;
 #[path = "../../../derivations/prr_rows.rs"]
 mod prr_rows;
+#[path = "../../../derivations/ring_reach.rs"]
+mod ring_reach;
 #[path = "../../../derivations/rp_rp_rp_octic.rs"]
 mod rp_rp_rp_octic;
 #[path = "../../../derivations/singularity_degrees.rs"]
 mod singularity_degrees;
+#[path = "../../../derivations/slider_reach.rs"]
+mod slider_reach;
 #[path = "../../../derivations/triad_sextic.rs"]
 mod triad_sextic;
 #[path = "../../../derivations/tripod_orientation.rs"]
@@ -45,7 +53,7 @@ mod tripod_orientation;
 mod velocity_row;
 
 /// Every derivation is a program of its own as well; here only its text is used.
-const _: [fn(); 16] = [
+const _: [fn(); 20] = [
     acceleration_term::main,
     cartesian_robot::main,
     charts::main,
@@ -54,11 +62,15 @@ const _: [fn(); 16] = [
     degree_table::main,
     dixon_pencils::main,
     filter_bound::main,
+    fold_rule::main,
     hana_forward::main,
+    joint_ranges::main,
     leg_reductions::main,
     prr_rows::main,
+    ring_reach::main,
     rp_rp_rp_octic::main,
     singularity_degrees::main,
+    slider_reach::main,
     triad_sextic::main,
     tripod_orientation::main,
     velocity_row::main,
@@ -130,6 +142,26 @@ const DERIVATIONS: &[Derivation] = &[
         name: "dixon_pencils",
         claim: "larger groups as generalised eigenproblems; the triad's sextic is the 6x6 case",
         document: dixon_pencils::document,
+    },
+    Derivation {
+        name: "fold_rule",
+        claim: "which curves can bound a maximal or inclusive workspace, and on which side",
+        document: fold_rule::document,
+    },
+    Derivation {
+        name: "ring_reach",
+        claim: "what bounds the workspaces of a leg whose pivots' distance decides: RPR and RRR",
+        document: ring_reach::document,
+    },
+    Derivation {
+        name: "slider_reach",
+        claim: "what a slider with a link reaches, and 3-PRR's region: stadium, lens, tips",
+        document: slider_reach::document,
+    },
+    Derivation {
+        name: "joint_ranges",
+        claim: "a joint held at an end of its range leaves a dyad, with one side allowed",
+        document: joint_ranges::document,
     },
     Derivation {
         name: "hana_forward",

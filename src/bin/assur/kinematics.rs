@@ -3,22 +3,17 @@
 use std::path::{Path, PathBuf};
 
 use assur::exchange::{
-    AngleUnit, InverseReport, ModelFile, Motion, PathReport, ROW_SCALING, SingularitiesReport, TracedModes,
-    VelocityReport, map_csv, read_path,
+    AngleUnit, AskedLoci, InverseReport, Loci, ModelFile, Motion, MotionAnswer, PathReport, ROW_SCALING, map_csv,
+    read_path,
 };
 use assur::nalgebra::{Matrix3, Vector2, Vector3};
-use assur::{
-    KinematicsError, MapQuantity, ModeChoice, PathEventKind, PathSettings, Pose, Reading, SingularMatrix, Singularity,
-    Velocity,
-};
+use assur::{KinematicsError, MapQuantity, ModeChoice, PathEventKind, PathSettings, Pose, Reading, SingularMatrix};
 
 use crate::args::{Quantity, Shown};
 use crate::output::{self, Failure, Files};
 use crate::tables::{ALARM, POSE_DIGITS, SIDE_DIGITS, STRONG, digits, heading, line, table};
 
-/// Cells of a map along each side.
-const MAP_CELLS: usize = 80;
-fn about(file: &Path, error: impl std::fmt::Display) -> Failure {
+pub(crate) fn about(file: &Path, error: impl std::fmt::Display) -> Failure {
     Failure::About(file.display().to_string(), error.to_string())
 }
 
@@ -38,7 +33,7 @@ fn pose_of(values: &[f64], unit: AngleUnit, file: &Path) -> Result<Pose, Failure
     Ok(Pose::new(x, y, unit.to_rad(phi)))
 }
 
-fn title(model: &ModelFile) -> String {
+pub(crate) fn title(model: &ModelFile) -> String {
     let robot = &model.manipulator;
     if robot.name.is_empty() { robot.family() } else { robot.name.clone() }
 }
@@ -119,33 +114,19 @@ pub(crate) fn velocity(
         accelerations: optional("accelerations", &asked.accelerations)?,
         wrench: optional("wrench", &asked.wrench)?,
     };
-    let failed = |error| about(file, error);
-    let (chosen, choice) = robot.chosen_mode(&pose, mode).map_err(|error| match error {
+    let answer = MotionAnswer::of(robot, &pose, mode, motion, asked.length).map_err(|error| match error {
         KinematicsError::WhichMode { .. } => about(file, format!("{error}; name one with --mode")),
-        other => failed(other),
+        other => about(file, other),
     })?;
-    // A merged leg is named + and may have been asked for as -.
-    let signs = mode.unwrap_or(&chosen.signs);
-    let velocity = robot.velocity(&pose, signs).map_err(failed)?;
-    let singularity = robot.singularity(&pose, signs, asked.length).map_err(failed)?;
-    output::print(&if json {
-        VelocityReport::new(&velocity, (signs, choice), &singularity, &motion).to_json()
-    } else {
-        velocity_table(&model, &velocity, (signs, choice), &singularity, &motion)
-    })
+    output::print(&if json { answer.report().to_json() } else { velocity_table(&model, &answer) })
 }
 
-fn velocity_table(
-    model: &ModelFile,
-    velocity: &Velocity,
-    (signs, choice): (&str, ModeChoice),
-    singularity: &Singularity,
-    motion: &Motion,
-) -> String {
+fn velocity_table(model: &ModelFile, answer: &MotionAnswer) -> String {
     let (robot, unit) = (&model.manipulator, model.angle_unit);
+    let MotionAnswer { signs, choice, velocity, singularity, motion } = answer;
     let mut text = String::new();
     heading(&mut text, &title(model));
-    let why = if choice == ModeChoice::Named { String::new() } else { format!(" ({})", choice.name()) };
+    let why = if *choice == ModeChoice::Named { String::new() } else { format!(" ({})", choice.name()) };
     line(&mut text, format_args!("{}, mode {signs}{why}, pose {}", robot.family(), shown_pose(&velocity.pose, unit)));
     line(&mut text, format_args!("A (x', y', phi') + B inputs' = 0, angles in radians; rows not scaled:"));
     line(&mut text, format_args!("  {ROW_SCALING}"));
@@ -225,7 +206,7 @@ fn velocity_table(
 }
 
 /// What loci are asked for.
-pub(crate) struct AskedLoci {
+pub(crate) struct LociOptions {
     pub(crate) phi: f64,
     pub(crate) mode: Option<String>,
     pub(crate) map: Option<Quantity>,
@@ -233,48 +214,32 @@ pub(crate) struct AskedLoci {
     pub(crate) polynomial: bool,
 }
 
-pub(crate) fn singularities(file: &Path, asked: &AskedLoci, shown: &Shown) -> Result<(), Failure> {
+pub(crate) fn singularities(file: &Path, asked: &LociOptions, shown: &Shown) -> Result<(), Failure> {
     let model = ModelFile::read(file)?;
     let (robot, unit) = (&model.manipulator, model.angle_unit);
     let phi = unit.to_rad(asked.phi);
-    let legs = robot.leg_loci(phi).map_err(|error| about(file, error))?;
-    let window = robot.plane_window(phi);
-    let names = asked.mode.clone().map_or_else(|| robot.mode_names(), |name| vec![name]);
-    let traced: TracedModes = names
-        .iter()
-        .map(|signs| Ok((signs.clone(), robot.trace_singularities(phi, signs, &window)?)))
-        .collect::<Result<_, KinematicsError>>()
-        .map_err(|error| about(file, error))?;
-    // Legs with several actuators have traced curves but no exact one.
-    let locus = match asked.polynomial {
-        true => robot.singularity_locus(phi).map_err(|error| error.to_string()),
-        false => Err("not asked for".to_owned()),
-    };
-    let map = asked.map.map(|quantity| {
-        let quantity = match quantity {
-            Quantity::Dexterity => MapQuantity::Dexterity,
-            Quantity::Accuracy => MapQuantity::Accuracy,
-            Quantity::Stiffness => MapQuantity::Stiffness,
-        };
-        robot.plane_map(quantity, phi, &names[0], None, &window, [MAP_CELLS; 2])
+    let map = asked.map.map(|quantity| match quantity {
+        Quantity::Dexterity => MapQuantity::Dexterity,
+        Quantity::Accuracy => MapQuantity::Accuracy,
+        Quantity::Stiffness => MapQuantity::Stiffness,
     });
-    let map = map.transpose().map_err(|error| about(file, error))?;
-    let edges: Vec<_> = legs.iter().map(|leg| robot.trace_leg_locus(leg, phi, &window)).collect();
-    let draw = || assur::plot::draw_singularities(robot, phi, &window, &traced, &edges, map.as_ref());
+    let question = AskedLoci { phi, mode: asked.mode.clone(), map, polynomial: asked.polynomial };
+    let found = Loci::of(robot, &question).map_err(|error| about(file, error))?;
+    let Loci { window, legs, edges, traced, locus, map, .. } = &found;
+    let draw = || assur::plot::draw_singularities(robot, phi, window, traced, edges, map.as_ref());
     let mut files = Files::default().with_pictures(shown.svg.as_deref(), shown.png.as_deref(), draw)?;
-    if let (Some(path), Some(map)) = (&asked.csv, &map) {
+    if let (Some(path), Some(map)) = (&asked.csv, map) {
         files = files.with(path, map_csv(map).into_bytes());
     }
     files.write()?;
     if shown.json {
-        let report = SingularitiesReport::new(phi, locus.as_ref().map_err(String::clone), &traced, &legs, map.as_ref());
-        return output::print(&report.to_json());
+        return output::print(&found.report().to_json());
     }
     let mut text = String::new();
     heading(&mut text, &title(&model));
     let at = format!("phi = {} {}", digits(asked.phi, POSE_DIGITS), unit.name());
     line(&mut text, format_args!("{}, singular positions at {at}", robot.family()));
-    match &locus {
+    match locus {
         Ok(locus) if locus.polynomial.vanishes() => line(&mut text, format_args!("type 2: in every position")),
         Ok(locus) if locus.degree() == 0 => line(&mut text, format_args!("type 2: in no position")),
         Ok(locus) => {
@@ -289,11 +254,11 @@ pub(crate) fn singularities(file: &Path, asked: &AskedLoci, shown: &Shown) -> Re
             format_args!("type 2: no exact curve ({reason}); what is drawn is traced by the sign of det A"),
         ),
     }
-    for (signs, pieces) in &traced {
+    for (signs, pieces) in traced {
         let length: f64 = pieces.iter().map(|[p, q]| (p - q).norm()).sum();
         line(&mut text, format_args!("        {signs}: length {} within reach and limits", digits(length, 5)));
     }
-    for leg in &legs {
+    for leg in legs {
         let curves: Vec<String> = leg.curves.iter().map(curve_text).collect();
         let curves = match (leg.everywhere, curves.is_empty()) {
             (true, _) => "in every position".to_owned(),
@@ -302,7 +267,7 @@ pub(crate) fn singularities(file: &Path, asked: &AskedLoci, shown: &Shown) -> Re
         };
         line(&mut text, format_args!("type 1, leg {}: {curves}", leg.leg));
     }
-    if let Some(map) = &map {
+    if let Some(map) = map {
         let known: Vec<f64> = map.values.iter().flatten().copied().collect();
         let (low, high) = known.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
         let range = format!("{} to {}", digits(low, 5), digits(high, 5));

@@ -37,10 +37,14 @@ fn linkage(linkage: &Linkage, file: &str, inputs: &[f64], shown: &Shown) -> Resu
     let answer = linkage.assemble(inputs).map_err(|error| Failure::About(file.to_owned(), error.to_string()))?;
     let draw = || assur::plot::draw_linkage(linkage, &answer);
     Files::default().with_pictures(shown.svg.as_deref(), shown.png.as_deref(), draw)?.write()?;
-    output::print(&if shown.json { LinkageReport::new(inputs, &answer).to_json() } else { linkage_table(&answer) })
+    output::print(&if shown.json {
+        LinkageReport::new(inputs, &answer).to_json()
+    } else {
+        linkage_table(linkage, &answer)
+    })
 }
 
-fn linkage_table(answer: &LinkageAssemblies) -> String {
+fn linkage_table(linkage: &Linkage, answer: &LinkageAssemblies) -> String {
     let mut text = String::new();
     heading(&mut text, "Linkage");
     for (number, group) in (1..).zip(&answer.groups) {
@@ -65,17 +69,40 @@ fn linkage_table(answer: &LinkageAssemblies) -> String {
     if let Some(first) = answer.assemblies.first() {
         let mut header = vec!["assembly".to_owned()];
         header.extend((0..first.poses.len()).map(|link| format!("link {link}")));
+        let sliders: Vec<usize> =
+            (0..linkage.joints().len()).filter(|&joint| linkage.joints()[joint].letter() == 'P').collect();
+        header.extend(sliders.iter().map(|joint| format!("slide {joint}")));
         let mut table = table(&header);
         for assembly in &answer.assemblies {
             let choice = assembly.choice.iter().map(ToString::to_string).collect::<Vec<_>>().join("-");
-            let turns = assembly.poses.iter().map(|pose| digits(pose[2], SIDE_DIGITS));
-            table.add_row(std::iter::once(choice).chain(turns));
+            let turns = assembly.poses.iter().map(|pose| pose[2]);
+            let slides = sliders.iter().map(|&joint| assembly.displacements[joint]);
+            let numbers = turns.chain(slides).map(|number| digits(number, SIDE_DIGITS));
+            table.add_row(std::iter::once(choice).chain(numbers));
         }
-        line(&mut text, format_args!("rotations from the reference assembly, in radians\n{table}"));
+        let slides = if sliders.is_empty() { "" } else { ", and displacements of the sliding joints" };
+        line(&mut text, format_args!("rotations from the reference assembly, in radians{slides}\n{table}"));
     }
     let worst = answer.assemblies.iter().map(|assembly| assembly.residual).fold(0.0, f64::max);
     let count = answer.assemblies.len();
-    line(&mut text, format_args!("{STRONG}{count} assemblies, worst residual {worst:.1e}{STRONG:#}"));
+    let ends = match answer.dead_ends {
+        0 => String::new(),
+        1 => "; one branch ends at a group without a real assembly".to_owned(),
+        more => format!("; {more} branches end at a group without a real assembly"),
+    };
+    let count = match count {
+        0 => "no assembly".to_owned(),
+        1 => format!("1 assembly, residual {worst:.1e}"),
+        more => format!("{more} assemblies, worst residual {worst:.1e}"),
+    };
+    line(&mut text, format_args!("{STRONG}{count}{STRONG:#}{ends}"));
+    match answer.status {
+        assur::Status::Complete => {}
+        assur::Status::SelfMotion => {
+            line(&mut text, format_args!("{ALARM}some group moves though the drivers are held{ALARM:#}"))
+        }
+        assur::Status::Undecided => line(&mut text, format_args!("{ALARM}some group's list may be short{ALARM:#}")),
+    }
     text
 }
 

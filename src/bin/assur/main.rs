@@ -3,21 +3,22 @@
 mod args;
 mod batch;
 mod derive;
+mod explore;
 mod kinematics;
 mod linkages;
+mod multipteron;
 mod output;
 mod png;
 mod spatial;
 mod tables;
+mod workspaces;
 
 use std::path::Path;
 use std::process::ExitCode;
 
 use args::{Arguments, Asked, Command};
 use assur::Manipulator;
-use assur::exchange::{
-    AngleUnit, CheckReport, ClaimedPoses, ForwardReport, ModelFile, Subject, VerifyReport, read_triad,
-};
+use assur::exchange::{AngleUnit, AnyCheck, ClaimedPoses, ForwardReport, ModelFile, Subject, VerifyReport, read_triad};
 use clap::{CommandFactory, Parser};
 use output::{Failure, Files};
 
@@ -32,7 +33,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     match arguments.command {
         Command::New { family, output } => new(&family, output.as_deref()),
         Command::Check { model, json } => {
-            let report = CheckReport::of(&ModelFile::read(&model)?);
+            let report = AnyCheck::read(&model)?;
             output::print(&if json { report.to_json() } else { tables::check(&report) })
         }
         Command::Forward { model, inputs, batch: None, asked, .. } => forward(&model, &inputs, &asked),
@@ -45,17 +46,21 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             kinematics::velocity(&model, &pose, mode.as_deref(), &asked, json)
         }
         Command::Singularities { model, phi, mode, map, csv, no_polynomial, shown } => {
-            let asked = kinematics::AskedLoci { phi, mode, map, csv, polynomial: !no_polynomial };
+            let asked = kinematics::LociOptions { phi, mode, map, csv, polynomial: !no_polynomial };
             kinematics::singularities(&model, &asked, &shown)
         }
         Command::Path { model, through, from, output, shown } => {
             kinematics::path(&model, &through, &from, output.as_deref(), &shown)
         }
+        Command::Explore { model, inputs, port, no_open } => explore::run(model.as_deref(), &inputs, port, !no_open),
         Command::Coupler { file, complex, shown } => linkages::coupler(&file, complex, &shown),
         Command::Group { file, inputs, complex, shown } => linkages::group(&file, &inputs, complex, &shown),
         Command::Triad { file, asked } => triad(&file, &asked),
+        Command::Workspace(asked) => workspaces::workspace(&asked),
+        Command::Sweep(asked) => workspaces::sweep(&asked),
         Command::Hana { command } => spatial::hana(command),
         Command::Tripod { command } => spatial::tripod(command),
+        Command::Multipteron { command } => multipteron::multipteron(command),
         Command::Verify { report, model, tolerance, json } => verify(&report, &model, tolerance, json),
         Command::Derive { name: Some(name), .. } => output::print(&derive::document(&name)?),
         Command::Derive { name: None, .. } => output::print(&derive::list()),
@@ -68,9 +73,14 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
 }
 
 /// Models of the spatial robots, as in `examples/`.
-const SPATIAL_MODELS: [(&str, &str); 2] = [
+const SPATIAL_MODELS: [(&str, &str); 7] = [
     ("hana", include_str!("../../../examples/hana.toml")),
     ("tripod", include_str!("../../../examples/tripod-cartesian.toml")),
+    ("tripod-inclined", include_str!("../../../examples/tripod-inclined.toml")),
+    ("tripod-upright", include_str!("../../../examples/tripod-upright.toml")),
+    ("tripteron", include_str!("../../../examples/tripteron.toml")),
+    ("quadrupteron", include_str!("../../../examples/quadrupteron.toml")),
+    ("hexapteron", include_str!("../../../examples/hexapteron.toml")),
 ];
 
 fn new(family: &str, output: Option<&Path>) -> Result<(), Failure> {

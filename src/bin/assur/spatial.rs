@@ -1,15 +1,18 @@
 //! `hana` and `tripod`: the two spatial robots.
 
-use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 use assur::exchange::{
-    AngleUnit, HanaFile, TripodFile, capability_stop_name, hana_capability_json, hana_forward_json, hana_inverse_json,
-    hana_velocity_json, hana_workspace_json, tilt_json, tilt_limit_name, tilt_map_json, tripod_forward_json,
-    tripod_inverse_json, tripod_velocity_json,
+    AngleUnit, AskedTilts, HanaFile, HanaTilts, TiltSections, TripodFile, capability_stop_name, hana_forward_json,
+    hana_inverse_json, hana_velocity_json, hana_workspace_json, tilt_json, tilt_limit_name, tripod_determinant_csv,
+    tripod_determinant_json, tripod_forward_json, tripod_inverse_json, tripod_velocity_json,
 };
 use assur::nalgebra::{Matrix3, Vector3, Vector6};
-use assur::{HanaMode, HanaPose, HanaSingularKind, MixedReach, SpatialError, TripodPose, TripodStatus};
+use assur::plot::PosedRobot;
+use assur::{
+    Counted, HanaMode, HanaPose, HanaSingularKind, MixedReach, SpatialError, TripodDesign, TripodPose, TripodStatus,
+    WorkspaceCurve,
+};
 use clap::{Subcommand, ValueEnum};
 
 use crate::args::Shown;
@@ -20,28 +23,26 @@ use crate::tables::{ALARM, POSE_DIGITS, SIDE_DIGITS, STRONG, digits, heading, li
 #[derive(Subcommand)]
 pub(crate) enum HanaCommand {
     /// Every working mode for a pose: slider heights, strokes that they violate.
-    #[command(after_help = "Example:  assur hana inverse examples/hana.toml --pose=-2,-12,20")]
+    #[command(after_help = "Example:  assur hana inverse examples/hana.toml --pose=-2,-12,20 --svg working-modes.svg")]
     Inverse {
         /// Model file, TOML or JSON; - is standard input.
         model: PathBuf,
         /// The platform's pose; the angle in the model file's unit.
         #[arg(long, value_name = "Y,Z,PHI", value_delimiter = ',', required = true, allow_hyphen_values = true)]
         pose: Vec<f64>,
-        /// Prints one JSON document; angles in radians.
-        #[arg(long)]
-        json: bool,
+        #[command(flatten)]
+        shown: Shown,
     },
     /// Every assembly mode for given slider heights.
-    #[command(after_help = "Example:  assur hana forward examples/hana.toml --inputs=1,-0.5,0.3")]
+    #[command(after_help = "Example:  assur hana forward examples/hana.toml --inputs=1,-0.5,0.3 --svg modes.svg")]
     Forward {
         /// Model file, TOML or JSON; - is standard input.
         model: PathBuf,
         /// The slider heights.
         #[arg(long, value_name = "Z1,Z2,Z3", value_delimiter = ',', required = true, allow_hyphen_values = true)]
         inputs: Vec<f64>,
-        /// Prints one JSON document; angles in radians.
-        #[arg(long)]
-        json: bool,
+        #[command(flatten)]
+        shown: Shown,
     },
     /// Matrices, singularity, rates and accelerations in a pose.
     #[command(after_help = "Example:  assur hana velocity examples/hana.toml --pose=-2,-12,20 --rates=1,0,0")]
@@ -71,9 +72,15 @@ pub(crate) enum HanaCommand {
         model: PathBuf,
         /// For one orientation, or over all.
         kind: WorkspaceKind,
-        /// The orientation, in the model file's unit.
+        /// The orientation of `constant`, in the model file's unit.
         #[arg(long, value_name = "PHI", default_value_t = 0.0, allow_hyphen_values = true)]
         phi: f64,
+        /// First orientation of `reachable`, in the model file's unit; without it minus a quarter turn.
+        #[arg(long, value_name = "PHI", allow_hyphen_values = true, requires = "to")]
+        from: Option<f64>,
+        /// Last orientation, counter-clockwise from the first; a full turn is every orientation.
+        #[arg(long, value_name = "PHI", allow_hyphen_values = true, requires = "from")]
+        to: Option<f64>,
         /// The working mode: + for a slider above its joint.
         #[arg(long, value_name = "SIGNS", default_value = "+++", allow_hyphen_values = true)]
         mode: String,
@@ -110,7 +117,7 @@ pub(crate) enum TripodCommand {
     /// Slider positions for a pose, limits that they violate.
     #[command(
         after_help = "A pose is x,y,z and a rotation vector (axis times angle, in the model file's unit), or x,y,z and the nine entries of a rotation \
-        matrix row by row.\nExample:  assur tripod inverse examples/tripod-cartesian.toml --pose=200,260,240,10,5,-3"
+        matrix row by row.\nExample:  assur tripod inverse examples/tripod-cartesian.toml --pose=200,260,240,10,5,-3 --svg pose.svg"
     )]
     Inverse {
         /// Model file, TOML or JSON; - is standard input.
@@ -118,9 +125,8 @@ pub(crate) enum TripodCommand {
         /// The platform's pose.
         #[arg(long, value_name = "X,Y,Z,A,B,C", value_delimiter = ',', required = true, allow_hyphen_values = true)]
         pose: Vec<f64>,
-        /// Prints one JSON document; angles in radians.
-        #[arg(long)]
-        json: bool,
+        #[command(flatten)]
+        shown: Shown,
     },
     /// Every assembly mode for given slider positions.
     #[command(
@@ -132,9 +138,45 @@ pub(crate) enum TripodCommand {
         /// The six slider positions, leg by leg.
         #[arg(long, value_name = "R1,...,R6", value_delimiter = ',', required = true, allow_hyphen_values = true)]
         inputs: Vec<f64>,
-        /// Prints one JSON document.
+        /// Counts exactly, over the integers: real solutions, multiplicities, spurious ones.
         #[arg(long)]
-        json: bool,
+        certify: bool,
+        #[command(flatten)]
+        shown: Shown,
+    },
+    /// det J over the elevation of the rails or of the platform axes, for a design of the paper's figure 8.
+    #[command(
+        after_help = "inclined: rails at the elevation, figure 8(a). upright: platform axes at the elevation, figure 8(b). Angles in degrees, JSON and CSV in radians.\n\
+        Example:  assur tripod determinant inclined --svg determinant.svg\n\
+        Example:  assur tripod determinant upright --pose=0,0,0,10,5,0 --pose=0,0,0,20,10,0 --csv determinant.csv"
+    )]
+    Determinant {
+        /// The design.
+        design: DesignName,
+        /// Distance of the first rail of each leg.
+        #[arg(long, value_name = "D", default_value_t = 600.0, allow_hyphen_values = true)]
+        d1: f64,
+        /// Distance of the second.
+        #[arg(long, value_name = "D", default_value_t = 720.0, allow_hyphen_values = true)]
+        d2: f64,
+        /// A pose, x,y,z and a rotation vector in degrees; may be given several times, one curve each.
+        #[arg(long, value_name = "X,Y,Z,A,B,C", allow_hyphen_values = true, default_values_t =
+            ["0,0,0,0,0,0".to_owned(), "0,0,0,10,5,0".to_owned(), "0,0,0,20,10,0".to_owned()])]
+        pose: Vec<String>,
+        /// First elevation.
+        #[arg(long, value_name = "ANGLE", default_value_t = 0.0, allow_hyphen_values = true)]
+        from: f64,
+        /// Last elevation.
+        #[arg(long, value_name = "ANGLE", default_value_t = 90.0, allow_hyphen_values = true)]
+        to: f64,
+        /// Elevations.
+        #[arg(long, value_name = "N", default_value_t = 181, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+        points: u32,
+        /// Writes the curves as CSV.
+        #[arg(long, value_name = "FILE")]
+        csv: Option<PathBuf>,
+        #[command(flatten)]
+        shown: Shown,
     },
     /// Jacobian, singularity, rates and accelerations in a pose.
     #[command(after_help = "Example:  assur tripod velocity examples/tripod-cartesian.toml --pose=200,260,240,10,5,-3")]
@@ -196,19 +238,28 @@ pub(crate) enum TripodCommand {
     },
 }
 
+/// A design of figure 8.
+#[derive(Clone, Copy, ValueEnum)]
+pub(crate) enum DesignName {
+    Inclined,
+    Upright,
+}
+
 /// Which workspace of HANA.
 #[derive(Clone, Copy, ValueEnum)]
 pub(crate) enum WorkspaceKind {
     /// For one orientation.
     Constant,
-    /// Over all orientations between the quarter turns.
+    /// Over a range of orientations; by default between the quarter turns.
     Reachable,
 }
 
+/// Digits of a number in a drawing's caption.
+const DRAWN_DIGITS: i32 = 4;
 /// The tolerance of the proved tilt, in radians.
 const TOLERANCE: f64 = 1e-3;
-/// Width of a progress bar.
-const PROGRESS_WIDTH: usize = 30;
+/// Progress bars of maps, by rows.
+const ROWS: &str = "{wide_bar} {pos} of {len} rows, {eta} left";
 
 fn about(file: &Path, error: impl std::fmt::Display) -> Failure {
     Failure::About(file.display().to_string(), error.to_string())
@@ -237,25 +288,16 @@ fn titled(name: &str, otherwise: &str) -> String {
     text
 }
 
-/// Shows how much is done, on a terminal only.
-fn progress(done: usize, count: usize) {
-    if std::io::stderr().is_terminal() {
-        let filled = PROGRESS_WIDTH * done / count.max(1);
-        let (full, rest) = ("#".repeat(filled), ".".repeat(PROGRESS_WIDTH - filled));
-        let end = if done == count { "\n" } else { "" };
-        // A progress bar that cannot be shown is no reason to stop.
-        let _ = write!(std::io::stderr(), "\r[{full}{rest}] {done}/{count}{end}");
-    }
-}
-
 pub(crate) fn hana(command: HanaCommand) -> Result<(), Failure> {
     match command {
-        HanaCommand::Inverse { model, pose, json } => hana_inverse(&model, &pose, json),
-        HanaCommand::Forward { model, inputs, json } => hana_forward(&model, &inputs, json),
+        HanaCommand::Inverse { model, pose, shown } => hana_inverse(&model, &pose, &shown),
+        HanaCommand::Forward { model, inputs, shown } => hana_forward(&model, &inputs, &shown),
         HanaCommand::Velocity { model, pose, mode, rates, accelerations, json } => {
             hana_velocity(&model, &pose, &mode, [&rates, &accelerations], json)
         }
-        HanaCommand::Workspace { model, kind, phi, mode, shown } => hana_workspace(&model, kind, phi, &mode, &shown),
+        HanaCommand::Workspace { model, kind, phi, from, to, mode, shown } => {
+            hana_workspace(&model, kind, (phi, from.zip(to)), &mode, &shown)
+        }
         HanaCommand::Capability { model, at, mode, strokes, cells, shown } => {
             hana_capability(&model, &at, &mode, &strokes, usize::from(cells), &shown)
         }
@@ -267,13 +309,19 @@ fn hana_pose(values: &[f64], unit: AngleUnit, file: &Path) -> Result<HanaPose, F
     Ok(HanaPose::new(y, z, unit.to_rad(phi)))
 }
 
-fn hana_inverse(file: &Path, pose: &[f64], json: bool) -> Result<(), Failure> {
+fn hana_inverse(file: &Path, pose: &[f64], shown: &Shown) -> Result<(), Failure> {
     let HanaFile { robot, angle_unit } = HanaFile::read(file)?;
     let pose = hana_pose(pose, angle_unit, file)?;
     let answer = robot.inverse(&pose).map_err(|error| about(file, error))?;
     let mixed = robot.mixed_singularities(pose.y, pose.z).map_err(|error| about(file, error))?;
     let reach = robot.mixed_reach();
-    if json {
+    let draw = || {
+        let ways =
+            answer.modes.iter().map(|way| PosedRobot { caption: way.mode.to_string(), pose, inputs: way.inputs });
+        assur::plot::draw_hana_poses(&robot, &ways.collect::<Vec<_>>())
+    };
+    Files::default().with_pictures(shown.svg.as_deref(), shown.png.as_deref(), draw)?.write()?;
+    if shown.json {
         return output::print(&hana_inverse_json(&answer, &mixed, reach));
     }
     let mut text = titled(&robot.name, "HANA");
@@ -324,12 +372,21 @@ fn hana_inverse(file: &Path, pose: &[f64], json: bool) -> Result<(), Failure> {
     output::print(&text)
 }
 
-fn hana_forward(file: &Path, inputs: &[f64], json: bool) -> Result<(), Failure> {
+fn hana_forward(file: &Path, inputs: &[f64], shown: &Shown) -> Result<(), Failure> {
     let HanaFile { robot, angle_unit } = HanaFile::read(file)?;
     let inputs = exactly("inputs", inputs, file)?;
     let answer = robot.forward(&inputs).map_err(|error| about(file, error))?;
     let violations = robot.violations(&inputs);
-    if json {
+    let draw = || {
+        let posed = |(number, mode): (usize, &assur::HanaAssembly)| {
+            let phi = digits(angle_unit.from_rad(mode.pose.phi), DRAWN_DIGITS);
+            let caption = format!("{number}: {}, phi = {phi} {}", mode.mode, angle_unit.name());
+            PosedRobot { caption, pose: mode.pose, inputs }
+        };
+        assur::plot::draw_hana_poses(&robot, &(1..).zip(&answer.modes).map(posed).collect::<Vec<_>>())
+    };
+    Files::default().with_pictures(shown.svg.as_deref(), shown.png.as_deref(), draw)?.write()?;
+    if shown.json {
         return output::print(&hana_forward_json(&answer, &violations));
     }
     let mut text = titled(&robot.name, "HANA");
@@ -414,7 +471,13 @@ fn hana_velocity(file: &Path, pose: &[f64], mode: &str, asked: [&[f64]; 2], json
     output::print(&text)
 }
 
-fn hana_workspace(file: &Path, kind: WorkspaceKind, phi: f64, mode: &str, shown: &Shown) -> Result<(), Failure> {
+fn hana_workspace(
+    file: &Path,
+    kind: WorkspaceKind,
+    (phi, range): (f64, Option<(f64, f64)>),
+    mode: &str,
+    shown: &Shown,
+) -> Result<(), Failure> {
     let HanaFile { robot, angle_unit } = HanaFile::read(file)?;
     let mode = hana_mode(mode, file)?;
     let (name, region) = match kind {
@@ -422,7 +485,13 @@ fn hana_workspace(file: &Path, kind: WorkspaceKind, phi: f64, mode: &str, shown:
             let region = robot.workspace(angle_unit.to_rad(phi), mode).map_err(|error| about(file, error))?;
             ("constant", region)
         }
-        WorkspaceKind::Reachable => ("reachable", robot.reachable_workspace(mode).map_err(|error| about(file, error))?),
+        WorkspaceKind::Reachable => {
+            let region = match range {
+                Some((from, to)) => robot.reachable_between(mode, [from, to].map(|phi| angle_unit.to_rad(phi))),
+                None => robot.reachable_workspace(mode),
+            };
+            ("reachable", region.map_err(|error| about(file, error))?)
+        }
     };
     let draw = || assur::plot::draw_hana(&robot.name, &[(name.to_owned(), &region)], None);
     Files::default().with_pictures(shown.svg.as_deref(), shown.png.as_deref(), draw)?.write()?;
@@ -431,16 +500,19 @@ fn hana_workspace(file: &Path, kind: WorkspaceKind, phi: f64, mode: &str, shown:
     }
     let mut text = titled(&robot.name, "HANA");
     for (area, arcs) in &region.loops {
-        line(&mut text, format_args!("piece of area {}", digits(*area, POSE_DIGITS)));
+        let what = if *area < 0.0 { "hole" } else { "piece" };
+        line(&mut text, format_args!("{what} of area {}", digits(area.abs(), POSE_DIGITS)));
         let mut rows = table(&["from y", "z", "to y", "z", "centre y", "z", "radius", "limit"]);
         for arc in arcs {
             let mut row: Vec<String> =
                 arc.start.iter().chain(&arc.end).map(|value| digits(*value, SIDE_DIGITS)).collect();
-            match arc.circle {
-                Some(c) => row.extend([c.center[0], c.center[1], c.radius].map(|value| digits(value, SIDE_DIGITS))),
-                None => row.extend(["straight".to_owned(), String::new(), String::new()]),
+            match arc.curve {
+                WorkspaceCurve::Circle(c) => {
+                    row.extend([c.center[0], c.center[1], c.radius].map(|value| digits(value, SIDE_DIGITS)));
+                }
+                other => row.extend([other.name().to_owned(), String::new(), String::new()]),
             }
-            row.push(arc.active.to_owned());
+            row.push(arc.active.join(", "));
             rows.add_row(row);
         }
         line(&mut text, format_args!("{rows}"));
@@ -462,34 +534,20 @@ fn hana_capability(
     let HanaFile { robot, angle_unit } = HanaFile::read(file)?;
     let mode = hana_mode(mode, file)?;
     let place: Option<[f64; 2]> = optional("at", at, file)?;
-    let here = place.map(|at| Ok((at, robot.capability(at, mode)?))).transpose();
-    let here: Option<([f64; 2], Option<assur::Capability>)> =
-        here.map_err(|error: assur::HanaWorkspaceError| about(file, error))?;
-    let best = robot.capability_supremum(mode).map_err(|error| about(file, error))?;
-    let mut curve = Vec::new();
-    for &half in strokes {
-        let other = robot.with_strokes(half).map_err(|error| about(file, error))?;
-        let found = other.capability_supremum(mode).map_err(|error| about(file, error))?;
-        curve.push((half, found.map(|found| found.zeta)));
-    }
-    let region = robot.workspace(0.0, mode).map_err(|error| about(file, error))?;
     let wanted = place.is_none() || shown.svg.is_some() || shown.png.is_some();
-    let map = match region.bbox.filter(|_| wanted) {
-        Some(window) => {
-            let map = robot.capability_map(mode, window, [cells; 2], |done| progress(done, cells));
-            Some(map.map_err(|error| about(file, error))?)
-        }
-        None => None,
-    };
-    let draw = || assur::plot::draw_hana(&robot.name, &[("phi = 0".to_owned(), &region)], map.as_ref());
+    let asked = AskedTilts { at: place, strokes: strokes.to_vec(), cells: wanted.then_some(cells) };
+    let bar = output::progress(Some(cells as u64), ROWS);
+    let found = HanaTilts::of(&robot, mode, &asked, |_| bar.inc(1)).map_err(|error| about(file, error))?;
+    bar.finish_and_clear();
+    let HanaTilts { here, supremum: best, against_strokes: curve, region, map } = &found;
+    let draw = || assur::plot::draw_hana(&robot.name, &[("phi = 0".to_owned(), region)], map.as_ref());
     Files::default().with_pictures(shown.svg.as_deref(), shown.png.as_deref(), draw)?.write()?;
     if shown.json {
-        let here = here.as_ref().map(|(at, found)| (*at, found.as_ref()));
-        return output::print(&hana_capability_json(here, best.as_ref(), map.as_ref(), &curve));
+        return output::print(&found.to_json());
     }
     let mut text = titled(&robot.name, "HANA");
     let angle = |value: f64| format!("{} {}", digits(angle_unit.from_rad(value), POSE_DIGITS), angle_unit.name());
-    match &here {
+    match here {
         Some((at, Some(found))) => {
             line(&mut text, format_args!("{STRONG}zeta at ({}) = {}{STRONG:#}", numbers(at), angle(found.zeta)));
             for (phi, stop) in found.range.iter().zip(found.stops) {
@@ -506,7 +564,7 @@ fn hana_capability(
         }
         None => line(&mut text, format_args!("the workspace of phi = 0 is empty")),
     }
-    for (half, zeta) in &curve {
+    for (half, zeta) in curve {
         let zeta = zeta.map_or("empty workspace".to_owned(), angle);
         line(&mut text, format_args!("strokes of half length {half}: largest {zeta}"));
     }
@@ -515,8 +573,11 @@ fn hana_capability(
 
 pub(crate) fn tripod(command: TripodCommand) -> Result<(), Failure> {
     match command {
-        TripodCommand::Inverse { model, pose, json } => tripod_inverse(&model, &pose, json),
-        TripodCommand::Forward { model, inputs, json } => tripod_forward(&model, &inputs, json),
+        TripodCommand::Inverse { model, pose, shown } => tripod_inverse(&model, &pose, &shown),
+        TripodCommand::Forward { model, inputs, certify, shown } => tripod_forward(&model, &inputs, certify, &shown),
+        TripodCommand::Determinant { design, d1, d2, pose, from, to, points, csv, shown } => {
+            determinant(design, [d1, d2], &pose, ([from, to], points as usize), csv.as_deref(), &shown)
+        }
         TripodCommand::Velocity { model, pose, rates, accelerations, json } => {
             tripod_velocity(&model, &pose, [&rates, &accelerations], json)
         }
@@ -541,14 +602,16 @@ fn tripod_pose(values: &[f64], unit: AngleUnit, file: &Path) -> Result<TripodPos
     Ok(TripodPose::new(Vector3::new(x, y, z), Vector3::new(a, b, c).map(|angle| unit.to_rad(angle))))
 }
 
-fn tripod_inverse(file: &Path, pose: &[f64], json: bool) -> Result<(), Failure> {
+fn tripod_inverse(file: &Path, pose: &[f64], shown: &Shown) -> Result<(), Failure> {
     let TripodFile { robot, angle_unit } = TripodFile::read(file)?;
     let pose = tripod_pose(pose, angle_unit, file)?;
     let failed = |error| about(file, error);
     let inputs = robot.inverse(&pose).map_err(failed)?;
     let angles = robot.plane_angles(&pose).map_err(failed)?;
     let violations = robot.violations(&pose, &inputs).map_err(failed)?;
-    if json {
+    let draw = || assur::plot::draw_tripod_poses(&robot, &[PosedRobot { caption: String::new(), pose, inputs }]);
+    Files::default().with_pictures(shown.svg.as_deref(), shown.png.as_deref(), draw)?.write()?;
+    if shown.json {
         return output::print(&tripod_inverse_json(&pose, &inputs, &angles, &violations));
     }
     let mut text = titled(&robot.name, "three-legged robot");
@@ -569,10 +632,21 @@ fn tripod_inverse(file: &Path, pose: &[f64], json: bool) -> Result<(), Failure> 
     output::print(&text)
 }
 
-fn tripod_forward(file: &Path, inputs: &[f64], json: bool) -> Result<(), Failure> {
+fn tripod_forward(file: &Path, inputs: &[f64], certify: bool, shown: &Shown) -> Result<(), Failure> {
     let TripodFile { robot, .. } = TripodFile::read(file)?;
-    let answer = robot.forward(&exactly("inputs", inputs, file)?).map_err(|error| about(file, error))?;
-    if json {
+    let inputs = exactly("inputs", inputs, file)?;
+    let answer = if certify { robot.certify(&inputs) } else { robot.forward(&inputs) };
+    let answer = answer.map_err(|error| about(file, error))?;
+    let draw = || {
+        let posed = |(number, mode): (usize, &assur::TripodAssembly)| PosedRobot {
+            caption: format!("mode {number}"),
+            pose: mode.pose,
+            inputs,
+        };
+        assur::plot::draw_tripod_poses(&robot, &(1..).zip(&answer.modes).map(posed).collect::<Vec<_>>())
+    };
+    Files::default().with_pictures(shown.svg.as_deref(), shown.png.as_deref(), draw)?.write()?;
+    if shown.json {
         return output::print(&tripod_forward_json(&answer));
     }
     let mut text = titled(&robot.name, "three-legged robot");
@@ -604,14 +678,86 @@ fn tripod_forward(file: &Path, inputs: &[f64], json: bool) -> Result<(), Failure
         TripodStatus::OrientationFree => "a curve of orientations",
         TripodStatus::Undecided => "undecided: the roots could not be had",
     };
+    let counted = if answer.counted == Counted::Exactly { ", counted exactly" } else { "" };
     let a = &answer.account;
     line(
         &mut text,
         format_args!(
-            "{STRONG}{status}; degree {} = {} real + {} complex + {} spurious + {} self-motion + {} undecided{STRONG:#}",
+            "{STRONG}{status}{counted}; degree {} = {} real + {} complex + {} spurious + {} self-motion + {} undecided{STRONG:#}",
             a.degree, a.real, a.complex, a.rejected, a.self_motion, a.undecided
         ),
     );
+    output::print(&text)
+}
+
+fn determinant(
+    design: DesignName,
+    distances: [f64; 2],
+    poses: &[String],
+    (range, points): ([f64; 2], usize),
+    csv: Option<&Path>,
+    shown: &Shown,
+) -> Result<(), Failure> {
+    let design = match design {
+        DesignName::Inclined => TripodDesign::Inclined,
+        DesignName::Upright => TripodDesign::Upright,
+    };
+    let file = Path::new("determinant");
+    let degrees = AngleUnit::Deg;
+    let range = range.map(|angle| degrees.to_rad(angle));
+    let mut curves = Vec::new();
+    for given in poses {
+        let numbers: Result<Vec<f64>, _> = given.split(',').map(|number| number.trim().parse()).collect();
+        let numbers = numbers.map_err(|_| about(file, format!("pose \"{given}\": must be six numbers x,y,z,a,b,c")))?;
+        let pose = tripod_pose(&numbers, degrees, file)?;
+        let curve = design.determinant_curve(distances[0], distances[1], &pose, range, points);
+        curves.push((pose, curve.map_err(|error| about(file, error))?));
+    }
+    let mut files = Files::default();
+    if let Some(path) = csv {
+        files = files.with(path, tripod_determinant_csv(&curves).into_bytes());
+    }
+    let draw = || {
+        let named = curves.iter().zip(poses).map(|((_, points), given)| {
+            (given.clone(), points.iter().map(|p| (degrees.from_rad(p.elevation), p.determinant)).collect())
+        });
+        let what = if design == TripodDesign::Inclined { "rails" } else { "platform axes" };
+        let title = format!(
+            "det J of the design with {} {what}",
+            if design == TripodDesign::Inclined { "inclined" } else { "raised" }
+        );
+        let subtitle = "one curve a pose: x, y, z and rotation vector in degrees";
+        let axes = [&*format!("elevation of the {what} (deg)"), "det J"];
+        assur::plot::draw_curves(&title, subtitle, axes, &named.collect::<Vec<_>>())
+    };
+    files.with_pictures(shown.svg.as_deref(), shown.png.as_deref(), draw)?.write()?;
+    if shown.json {
+        return output::print(&tripod_determinant_json(design, distances, &curves));
+    }
+    let mut text = titled("", &format!("{} design, d1 = {}, d2 = {}", design.name(), distances[0], distances[1]));
+    for ((_, points), given) in curves.iter().zip(poses) {
+        let known = || points.iter().filter_map(|p| p.determinant.map(|value| (degrees.from_rad(p.elevation), value)));
+        let size = |value: &(f64, f64)| value.1.abs();
+        let largest = known().max_by(|a, b| size(a).total_cmp(&size(b)));
+        line(&mut text, format_args!("{STRONG}pose {given}{STRONG:#}"));
+        match largest {
+            Some((_, 0.0)) => line(&mut text, format_args!("  det J = 0 throughout")),
+            Some((at, value)) => {
+                let value = digits(value, SIDE_DIGITS);
+                line(&mut text, format_args!("  largest of those taken: det J = {value} at {at} deg"));
+            }
+            None => line(&mut text, format_args!("  singular of type 1 throughout")),
+        }
+        let zeros: Vec<String> = known()
+            .collect::<Vec<_>>()
+            .windows(2)
+            .filter(|pair| pair[0].1 * pair[1].1 < 0.0)
+            .map(|pair| format!("{} to {}", pair[0].0, pair[1].0))
+            .collect();
+        if !zeros.is_empty() {
+            line(&mut text, format_args!("  changes sign between {} deg", zeros.join(", ")));
+        }
+    }
     output::print(&text)
 }
 
@@ -700,33 +846,23 @@ fn tilt(file: &Path, at: &[f64], tolerance: Option<f64>, shown: &Shown) -> Resul
 }
 
 fn tilt_map(file: &Path, corners: [&[f64]; 2], sections: usize, cells: usize, shown: &Shown) -> Result<(), Failure> {
-    let TripodFile { robot, .. } = TripodFile::read(file)?;
+    let TripodFile { robot, angle_unit } = TripodFile::read(file)?;
     let (low, high): ([f64; 3], [f64; 3]) = (exactly("low", corners[0], file)?, exactly("high", corners[1], file)?);
-    for k in 0..3 {
-        if low[k] > high[k] {
-            let what = "map from --low to --high".to_owned();
-            return Err(about(file, SpatialError::Reversed { what, low: low[k], high: high[k] }));
-        }
-    }
-    let side = |k: usize| (high[k] - low[k]) / cells as f64;
-    let mut maps = Vec::new();
-    for section in 0..sections {
-        let z = low[2] + (high[2] - low[2]) * section as f64 / (sections - 1).max(1) as f64;
-        let corner = Vector3::new(low[0] + 0.5 * side(0), low[1] + 0.5 * side(1), z);
-        let along = [Vector3::x() * side(0), Vector3::y() * side(1)];
-        let done = |row: usize| progress(section * cells + row, sections * cells);
-        let values = robot.tilt_map(&corner, along, [cells; 2], done).map_err(|error| about(file, error))?;
-        maps.push((z, values));
-    }
-    let draw = || assur::plot::draw_tilt_sections(&robot.name, low, high, cells, &maps);
+    let bar = output::progress(Some((sections * cells) as u64), ROWS);
+    let found = TiltSections::of(&robot, low, high, [sections, cells], || bar.inc(1));
+    bar.finish_and_clear();
+    let found = found.map_err(|error| about(file, error))?;
+    let maps = &found.maps;
+    let draw = || assur::plot::draw_tilt_sections(&robot.name, low, high, cells, maps);
     Files::default().with_pictures(shown.svg.as_deref(), shown.png.as_deref(), draw)?.write()?;
     if shown.json {
-        return output::print(&tilt_map_json(low, high, cells, &maps));
+        return output::print(&found.to_json());
     }
     let mut text = titled(&robot.name, "three-legged robot");
-    let mut rows = table(&["z", "places within limits", "least (deg)", "largest (deg)"]);
-    for (z, values) in &maps {
-        let known: Vec<f64> = values.iter().flatten().map(|angle| angle.to_degrees()).collect();
+    let [least, largest] = ["least", "largest"].map(|what| format!("{what} ({})", angle_unit.name()));
+    let mut rows = table(&["z", "places within limits", &least, &largest]);
+    for (z, values) in maps {
+        let known: Vec<f64> = values.iter().flatten().map(|&angle| angle_unit.from_rad(angle)).collect();
         let least = known.iter().copied().fold(f64::INFINITY, f64::min);
         let largest = known.iter().copied().fold(0.0, f64::max);
         let [least, largest] =

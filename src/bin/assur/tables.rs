@@ -3,7 +3,10 @@
 use std::fmt::Write;
 
 use anstyle::{AnsiColor, Style};
-use assur::exchange::{AngleUnit, CertificateReport, CheckReport, DyadEntry, ModelFile, SubjectReport, VerifyReport};
+use assur::exchange::{
+    AngleUnit, AnyCheck, CertificateReport, CheckReport, DyadEntry, ModelFile, SpatialCheckReport, SubjectReport,
+    VerifyReport,
+};
 use assur::num_complex::Complex64;
 use assur::{Assemblies, AssemblyMode, AssemblyModes, JointKind, Manipulator, Remark, Status, Triad, Verdict};
 use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle};
@@ -36,7 +39,30 @@ pub(crate) fn inputs_in_radians(robot: &Manipulator, inputs: &[f64], unit: Angle
     inputs.iter().zip(kinds).map(|(&value, kind)| unit.joint_to_rad(kind, value)).collect()
 }
 
-pub(crate) fn check(report: &CheckReport) -> String {
+pub(crate) fn check(report: &AnyCheck) -> String {
+    match report {
+        AnyCheck::Planar(report) => check_planar(report),
+        AnyCheck::Spatial(report) => check_spatial(report),
+    }
+}
+
+fn check_spatial(report: &SpatialCheckReport) -> String {
+    let mut text = String::new();
+    heading(&mut text, if report.name.is_empty() { report.family } else { &report.name });
+    line(&mut text, format_args!("family        {}, {} degrees of freedom", report.family, report.degrees_of_freedom));
+    line(&mut text, format_args!("degree bound  {}", report.degree_bound));
+    line(&mut text, format_args!("working modes {}", report.working_modes));
+    line(&mut text, format_args!("angle unit    {}", report.angle_unit));
+    for (name, value) in &report.numbers {
+        line(&mut text, format_args!("{name:<13} {value}"));
+    }
+    for remark in &report.remarks {
+        line(&mut text, format_args!("{ALARM}note:{ALARM:#} {}", remark.text));
+    }
+    text
+}
+
+fn check_planar(report: &CheckReport) -> String {
     let mut text = String::new();
     heading(&mut text, if report.name.is_empty() { &report.family } else { &report.name });
     let bound = report.degree_bound.map_or("unknown".to_owned(), |bound| bound.to_string());

@@ -7,9 +7,12 @@
 
 mod circuits;
 mod count;
+mod cross;
 mod curve;
 mod equation;
 mod meet;
+mod nearest;
+mod search;
 mod sextic;
 
 pub use circuits::{Circuit, GrashofClass, InputRange};

@@ -7,7 +7,7 @@
 //! Source: Rojas, Thomas (2012), On closed-form solutions to the position analysis of Baranov trusses, Mech. Mach. Theory 50, 179-196,
 //! which names Baranov's catalogue of 1952.
 
-use super::graph::LinkGraph;
+use super::graph::{GraphError, LinkGraph};
 
 /// A truss of the catalogue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -163,6 +163,12 @@ const TABLE: [Entry; 32] = [
     (9, 26, 58, "03 14 25 06 16 26 27 37 47 18 38 58", [0, 1]),
     (9, 27, 50, "03 14 25 06 16 26 37 47 57 18 28 38", [1, 5]),
 ];
+
+/// The name in the catalogue of the truss that these links form, link 0 its ground; `None` for dyads and more than nine links.
+pub(in crate::linkage) fn group_name(links: usize, edges: &[[usize; 2]]) -> Result<Option<String>, GraphError> {
+    let graph = LinkGraph::of_group(links, edges, 0)?;
+    Ok(recognise(&graph).map(|found| found.truss.name()))
+}
 
 #[cfg(test)]
 mod tests {

@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 /// Beyond this the pencil of a group (252 rows for eleven links) is no longer a sensible question.
-pub(super) const MOST_LINKS: usize = 11;
+pub(in crate::linkage) const MOST_LINKS: usize = 11;
 
 /// Why links and joints make no Assur group. Links and joints are counted from 0, as in files.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]

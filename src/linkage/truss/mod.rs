@@ -14,6 +14,8 @@ mod describe;
 mod graph;
 
 pub use assemble::{TrussAssemblies, TrussAssembly};
+pub(in crate::linkage) use catalogue::group_name;
 pub use catalogue::{BaranovTruss, baranov_trusses};
 pub use describe::{Truss, TrussError, TrussJoint};
 pub use graph::GraphError;
+pub(in crate::linkage) use graph::MOST_LINKS;

@@ -8,10 +8,28 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use thiserror::Error;
+
 use super::super::error::{SpatialError, moderate};
 use super::inverse::HanaMode;
 use super::model::{Hana, HanaPose};
-use super::workspace::HanaWorkspaceError;
+
+/// Why a rotational capability of HANA is not given.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum HanaCapabilityError {
+    /// A place that is not finite, and the like.
+    #[error(transparent)]
+    Question(#[from] SpatialError),
+    /// Sliders 1 and 2 on opposite sides of their joints, where the index is not defined: the platform does not turn about a level position in place.
+    #[error("mode {mode}: sliders 1 and 2 must be on the same side of their joints, as in +++")]
+    OppositeSides {
+        /// The mode asked for.
+        mode: HanaMode,
+    },
+    /// Legs 1 and 2 have different strokes: the supremum is known for equal ones only.
+    #[error("strokes of legs 1 and 2 differ; the largest capability is known for equal ones only")]
+    DifferentStrokes,
+}
 
 /// What ends the tilting at one side.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,11 +109,11 @@ impl Hana {
     /// use assur::{Hana, HanaMode};
     /// let there = Hana::example().capability([-2.0, -12.0], HanaMode::ABOVE)?.unwrap();
     /// assert!((there.zeta.to_degrees() - 89.64998565221119).abs() < 1e-9);
-    /// # Ok::<(), assur::HanaWorkspaceError>(())
+    /// # Ok::<(), assur::HanaCapabilityError>(())
     /// ```
-    pub fn capability(&self, at: [f64; 2], mode: HanaMode) -> Result<Option<Capability>, HanaWorkspaceError> {
+    pub fn capability(&self, at: [f64; 2], mode: HanaMode) -> Result<Option<Capability>, HanaCapabilityError> {
         if mode.above[0] != mode.above[1] {
-            return Err(HanaWorkspaceError::OppositeSides { mode });
+            return Err(HanaCapabilityError::OppositeSides { mode });
         }
         moderate(|| "place y".to_owned(), at[0])?;
         moderate(|| "place z".to_owned(), at[1])?;
@@ -123,7 +141,7 @@ impl Hana {
         window: [f64; 4],
         size: [usize; 2],
         mut progress: impl FnMut(usize),
-    ) -> Result<CapabilityMap, HanaWorkspaceError> {
+    ) -> Result<CapabilityMap, HanaCapabilityError> {
         let mut map = CapabilityMap { window, size, values: Vec::with_capacity(size[0] * size[1]) };
         for row in 0..size[1] {
             for column in 0..size[0] {
@@ -141,15 +159,15 @@ impl Hana {
     /// one jump at `hi - sqrt((l + r)² - R²)`, `l = sqrt(L² - y²)`. Along `y` it is sought on a grid and refined: not proved to be the largest.
     ///
     /// # Errors
-    /// As [`Hana::reachable_workspace`], except that any boundary will do.
+    /// Sliders 1 and 2 on opposite sides of their joints; different strokes of theirs.
     ///
     /// ```
     /// use assur::{Hana, HanaMode};
     /// let best = Hana::example().capability_supremum(HanaMode::ABOVE)?.unwrap();
     /// assert!((best.zeta.to_degrees() - 139.73387603161154).abs() < 1e-8 && !best.attained); // printed: 139.2
-    /// # Ok::<(), assur::HanaWorkspaceError>(())
+    /// # Ok::<(), assur::HanaCapabilityError>(())
     /// ```
-    pub fn capability_supremum(&self, mode: HanaMode) -> Result<Option<CapabilitySupremum>, HanaWorkspaceError> {
+    pub fn capability_supremum(&self, mode: HanaMode) -> Result<Option<CapabilitySupremum>, HanaCapabilityError> {
         self.check_same_side(mode)?;
         let region = self.workspace(0.0, mode)?;
         let mut best: Option<CapabilitySupremum> = None;
@@ -188,6 +206,16 @@ impl Hana {
             }
         }
         Ok(best)
+    }
+
+    fn check_same_side(&self, mode: HanaMode) -> Result<(), HanaCapabilityError> {
+        if mode.above[0] != mode.above[1] {
+            return Err(HanaCapabilityError::OppositeSides { mode });
+        }
+        if self.strokes[0] != self.strokes[1] {
+            return Err(HanaCapabilityError::DifferentStrokes);
+        }
+        Ok(())
     }
 
     /// The same robot with every stroke of this half length about its middle.

@@ -24,10 +24,9 @@ mod model;
 mod velocity;
 mod workspace;
 
-pub use capability::{Capability, CapabilityMap, CapabilityStop, CapabilitySupremum};
+pub use capability::{Capability, CapabilityMap, CapabilityStop, CapabilitySupremum, HanaCapabilityError};
 pub use forward::{HanaAssemblies, HanaAssembly, HanaFamily};
 pub use inverse::{HanaMode, HanaUnreachable, HanaViolation, HanaWay, HanaWays};
 pub use mixed::{MixedReach, MixedSingularity};
 pub use model::{Hana, HanaPose};
 pub use velocity::{HanaSingularKind, HanaSingularity, HanaVelocity};
-pub use workspace::HanaWorkspaceError;

@@ -1,10 +1,12 @@
 //! In which ways can a three-legged robot be put together for given slider positions?
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 
-use super::super::error::moderate;
+use super::super::error::{SpatialError, moderate};
+use super::exact::{ExactConditions, cross, exact3, rounded};
 use super::model::{PARALLEL, Tripod, TripodError, TripodPose};
-use super::orientation::PlaneConditions;
+use super::orientation::{Orientations, PlaneConditions};
+use crate::algebra::{Rational, Ring, dyadic};
 use crate::solve::Account;
 
 /// How the answer ended.
@@ -29,6 +31,15 @@ impl TripodStatus {
             Self::Undecided => "undecided",
         }
     }
+}
+
+/// What the numbers of an account rest on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Counted {
+    /// Eigenvalues, with tolerances.
+    Numerically,
+    /// Integers: exact for the `f64`s given.
+    Exactly,
 }
 
 /// One way to put the robot together.
@@ -59,11 +70,13 @@ pub struct TripodAssemblies {
     pub inputs: [f64; 6],
     /// How it ended.
     pub status: TripodStatus,
+    /// What the account rests on.
+    pub counted: Counted,
     /// The ways that the robot has, sorted by their rotation.
     pub modes: Vec<TripodAssembly>,
     /// Solutions of the equations in which a platform axis is parallel to a base axis.
     pub spurious: Vec<TripodAssembly>,
-    /// Degree 8 = real + complex + rejected (spurious). Counted numerically.
+    /// Degree 8 = real + complex + rejected (spurious) + self-motion + undecided.
     pub account: Account,
 }
 
@@ -71,11 +84,15 @@ pub struct TripodAssemblies {
 const SPURIOUS: f64 = 1e-9;
 const SPURIOUS_DOUBLE: f64 = 1e-6;
 
+fn check(inputs: &[f64; 6]) -> Result<(), SpatialError> {
+    (1..).zip(inputs).try_for_each(|(slider, &value)| moderate(|| format!("input {slider}"), value))
+}
+
 impl Tripod {
     /// Every way to put the robot together.
     ///
     /// **Shape**: at most eight modes; the account sums to 8. **Accuracy**: orientations polished on the conditions, residual measured on the planes.
-    /// **Proof**: none; counts are numerical. **Cost**: some tens of microseconds. **Source**: `orientation.rs`; the degree in the derivation `tripod_orientation`.
+    /// **Proof**: none; counts are numerical: [`Tripod::certify`] counts exactly. **Cost**: some tens of microseconds. **Source**: `orientation.rs`; the degree in the derivation `tripod_orientation`.
     ///
     /// # Errors
     /// An input that is not finite.
@@ -90,56 +107,127 @@ impl Tripod {
     /// # Ok::<(), assur::TripodError>(())
     /// ```
     pub fn forward(&self, inputs: &[f64; 6]) -> Result<TripodAssemblies, TripodError> {
-        for (slider, &value) in (1..).zip(inputs) {
-            moderate(|| format!("input {slider}"), value)?;
-        }
+        check(inputs)?;
         let mut normals = [Vector3::zeros(); 3];
         for (k, leg) in self.legs.iter().enumerate() {
             let normal = leg.normal_of([inputs[2 * k], inputs[2 * k + 1]]);
             normals[k] = normal.ok_or(TripodError::OneRail { leg: k + 1 })?.into_inner();
         }
-        let conditions =
-            PlaneConditions { normals, directions: self.legs.each_ref().map(|leg| leg.v), cosines: [0.0; 3] };
-        let orientations = conditions.solve();
-        let mut account = orientations.account;
+        let conditions = self.conditions(normals);
+        let free = normals[0].dot(&normals[1].cross(&normals[2])).abs() <= PARALLEL;
+        let parallel = |rotations: &[(Rotation3<f64>, usize)], leg: usize| {
+            let limit = |multiplicity: usize| if multiplicity > 1 { SPURIOUS_DOUBLE } else { SPURIOUS };
+            rotations.iter().map(|(rotation, m)| self.axes_apart(rotation, leg) <= limit(*m)).collect()
+        };
+        Ok(self.assembled(inputs, &normals, conditions.solve(), free, Counted::Numerically, parallel))
+    }
+
+    /// Every way to put the robot together, counted exactly for the `f64`s given.
+    ///
+    /// **Shape** and **accuracy** as [`Tripod::forward`]. **Proof**: how many solutions are real, with which multiplicity, whether they are a curve, whether the place is
+    /// determined and how many are spurious for each leg is decided over the integers; what could not be lifted is counted as undecided. The digits of a pose are those
+    /// of Newton's method beside an isolated root. **Cost**: some milliseconds; a tenth of a second where solutions meet. **Source**: `exact.rs`.
+    ///
+    /// # Errors
+    /// As [`Tripod::forward`].
+    ///
+    /// ```
+    /// use assur::{Counted, Tripod};
+    /// let robot = Tripod::cartesian(600.0, 720.0)?;
+    /// // t1 t2 t3 = -1: the four true orientations run into the four spurious ones.
+    /// let answer = robot.certify(&[0.0, -120.0, 0.0, -120.0, 0.0, -120.0])?;
+    /// assert_eq!((answer.counted, answer.spurious.len(), answer.account.rejected), (Counted::Exactly, 4, 8));
+    /// # Ok::<(), assur::TripodError>(())
+    /// ```
+    pub fn certify(&self, inputs: &[f64; 6]) -> Result<TripodAssemblies, TripodError> {
+        check(inputs)?;
+        let finite = |v: &Vector3<f64>| exact3(&[v.x, v.y, v.z]).expect("a robot's numbers are finite");
+        let exact = inputs.map(|x| dyadic(x).expect("inputs were checked"));
+        let mut normals = Vec::with_capacity(3);
+        for (k, leg) in self.legs.iter().enumerate() {
+            let (da, db, u) = (finite(&leg.da), finite(&leg.db), finite(&leg.u));
+            let apart = exact[2 * k + 1].clone() - exact[2 * k].clone();
+            let across = std::array::from_fn(|i| db[i].clone() - da[i].clone() + u[i].clone() * apart.clone());
+            normals.push(cross(&across, &finite(&leg.w)));
+        }
+        let normals: [_; 3] = normals.try_into().expect("three legs");
+        let mut measured = [Vector3::zeros(); 3];
+        for (k, normal) in normals.iter().enumerate() {
+            measured[k] = rounded(normal).try_normalize(0.0).ok_or(TripodError::OneRail { leg: k + 1 })?;
+        }
+        let directions = self.legs.each_ref().map(|leg| [leg.v.x, leg.v.y, leg.v.z]);
+        let zeros = [0, 0, 0].map(|_| Rational::zero());
+        let conditions = ExactConditions::new(normals, directions, zeros).expect("a robot's numbers are finite");
+        let orientations = conditions.solve(&self.conditions(measured));
+        // As many as there are, and those nearest to it.
+        let parallel = |rotations: &[(Rotation3<f64>, usize)], leg: usize| {
+            let count = conditions.along(leg, &finite(&self.legs[leg].w)).unwrap_or(0);
+            let mut nearest: Vec<usize> = (0..rotations.len()).collect();
+            let apart = |k: usize| self.axes_apart(&rotations[k].0, leg);
+            nearest.sort_by(|&a, &b| apart(a).total_cmp(&apart(b)));
+            let mut flags = vec![false; rotations.len()];
+            nearest.into_iter().take(count).for_each(|k| flags[k] = true);
+            flags
+        };
+        Ok(self.assembled(inputs, &measured, orientations, conditions.coplanar(), Counted::Exactly, parallel))
+    }
+
+    fn conditions(&self, normals: [Vector3<f64>; 3]) -> PlaneConditions {
+        PlaneConditions { normals, directions: self.legs.each_ref().map(|leg| leg.v), cosines: [0.0; 3] }
+    }
+
+    /// The sine of the angle between a leg's axes on the platform and on the base.
+    fn axes_apart(&self, rotation: &Rotation3<f64>, leg: usize) -> f64 {
+        let leg = &self.legs[leg];
+        (rotation * leg.v).cross(&leg.w).norm()
+    }
+
+    /// From orientations to poses, spurious ones apart; `parallel` tells for which orientations a leg's axes are parallel.
+    fn assembled(
+        &self,
+        inputs: &[f64; 6],
+        normals: &[Vector3<f64>; 3],
+        orientations: Orientations,
+        place_free: bool,
+        counted: Counted,
+        parallel: impl Fn(&[(Rotation3<f64>, usize)], usize) -> Vec<bool>,
+    ) -> TripodAssemblies {
+        let Orientations { rotations, mut account, self_motion } = orientations;
         let mut answer = TripodAssemblies {
             inputs: *inputs,
             status: TripodStatus::Complete,
+            counted,
             modes: Vec::new(),
             spurious: Vec::new(),
             account,
         };
-        if orientations.self_motion {
+        if self_motion {
             answer.status = TripodStatus::OrientationFree;
-            return Ok(answer);
+            return answer;
         }
         if account.undecided > 0 {
             answer.status = TripodStatus::Undecided;
-            return Ok(answer);
         }
-        let [n1, n2, n3] = normals;
-        let minors = [n2.cross(&n3), n3.cross(&n1), n1.cross(&n2)];
-        let determinant = n1.dot(&minors[0]);
-        if determinant.abs() <= PARALLEL {
+        if place_free {
             answer.status = TripodStatus::PositionFree;
             account.self_motion = account.real;
             account.real = 0;
             answer.account = account;
-            return Ok(answer);
+            return answer;
         }
-        for (rotation, multiplicity) in orientations.rotations {
+        let [n1, n2, n3] = *normals;
+        let minors = [n2.cross(&n3), n3.cross(&n1), n1.cross(&n2)];
+        let determinant = n1.dot(&minors[0]);
+        let flags: [Vec<bool>; 3] = std::array::from_fn(|leg| parallel(&rotations, leg));
+        for (number, &(rotation, multiplicity)) in rotations.iter().enumerate() {
             let right: [f64; 3] = std::array::from_fn(|k| {
                 let leg = &self.legs[k];
                 normals[k].dot(&(leg.da + leg.u * inputs[2 * k] - rotation * leg.c))
             });
             let position = (minors[0] * right[0] + minors[1] * right[1] + minors[2] * right[2]) / determinant;
             let pose = TripodPose { position, rotation };
-            let limit = if multiplicity > 1 { SPURIOUS_DOUBLE } else { SPURIOUS };
-            let parallel_axes = std::array::from_fn(|k| {
-                let leg = &self.legs[k];
-                (rotation * leg.v).cross(&leg.w).norm() <= limit
-            });
-            let residual = self.residual(&pose, inputs, &normals);
+            let parallel_axes = flags.each_ref().map(|flags| flags[number]);
+            let residual = self.residual(&pose, inputs, normals);
             let mode = TripodAssembly { pose, multiplicity, parallel_axes, residual };
             if mode.spurious() {
                 account.real -= multiplicity;
@@ -151,7 +239,7 @@ impl Tripod {
         }
         answer.account = account;
         debug_assert!(account.adds_up(), "{account:?}");
-        Ok(answer)
+        answer
     }
 
     /// How far the assembled robot is from closing: both points of each joint's axis against the plane through both sliders.

@@ -128,25 +128,35 @@ impl Quadrupteron {
         std::array::from_fn(|k| self.directions[k].dot(&(place + rotation * self.points[k])))
     }
 
-    /// Places and rotations (radians) for slider positions: at most two.
-    ///
-    /// The combination of the four equations in which the place drops out is `A cos phi + B sin phi = C`. Empty too where the directions lie in a plane.
-    pub fn forward(&self, inputs: &[f64; 4]) -> Vec<(Vector3<f64>, f64)> {
-        let e = &self.directions;
-        let others = |k: usize| -> [usize; 3] { std::array::from_fn(|i| if i < k { i } else { i + 1 }) };
-        let volume = |k: usize| {
-            let [a, b, c] = others(k).map(|i| e[i]);
-            a.dot(&b.cross(&c))
-        };
-        // Signed minors are the left null vector of the directions.
-        let null: [f64; 4] = std::array::from_fn(|k| if k % 2 == 0 { volume(k) } else { -volume(k) });
+    /// `[A, B, C]` of `A cos phi + B sin phi = C`: the combination of the four equations in which the place drops out.
+    pub fn orientation_equation(&self, inputs: &[f64; 4]) -> [f64; 3] {
+        let null = self.null_vector();
         let (mut cosine, mut sine, mut constant) = (0.0, 0.0, 0.0);
         for k in 0..4 {
+            let e = &self.directions[k];
             let fixed = self.axis * self.axis.dot(&self.points[k]);
-            cosine += null[k] * e[k].dot(&(self.points[k] - fixed));
-            sine += null[k] * e[k].dot(&self.axis.cross(&self.points[k]));
-            constant += null[k] * (inputs[k] - e[k].dot(&fixed));
+            cosine += null[k] * e.dot(&(self.points[k] - fixed));
+            sine += null[k] * e.dot(&self.axis.cross(&self.points[k]));
+            constant += null[k] * (inputs[k] - e.dot(&fixed));
         }
+        [cosine, sine, constant]
+    }
+
+    /// The left null vector of the directions: signed minors.
+    fn null_vector(&self) -> [f64; 4] {
+        let volume = |k: usize| {
+            let [a, b, c] = others(k).map(|i| self.directions[i]);
+            a.dot(&b.cross(&c))
+        };
+        std::array::from_fn(|k| if k % 2 == 0 { volume(k) } else { -volume(k) })
+    }
+
+    /// Places and rotations (radians) for slider positions: at most two.
+    ///
+    /// By [`Quadrupteron::orientation_equation`]. Empty too where the directions lie in a plane.
+    pub fn forward(&self, inputs: &[f64; 4]) -> Vec<(Vector3<f64>, f64)> {
+        let (e, null) = (&self.directions, self.null_vector());
+        let [cosine, sine, constant] = self.orientation_equation(inputs);
         let largest = (0..4).max_by(|&a, &b| null[a].abs().total_cmp(&null[b].abs())).unwrap_or(0);
         let place = |angle: f64| {
             let rotation = Rotation3::new(self.axis * angle);
@@ -156,6 +166,11 @@ impl Quadrupteron {
         };
         circle_equation(cosine, sine, constant).into_iter().filter_map(place).collect()
     }
+}
+
+/// The three legs beside one.
+fn others(k: usize) -> [usize; 3] {
+    std::array::from_fn(|i| if i < k { i } else { i + 1 })
 }
 
 /// A model of the Hexapteron: six legs `e · (p + R b) = rho`, two for each direction.

@@ -16,17 +16,22 @@
 //! Not covered: the Pentapteron, whose forward kinematics has 208 real solutions and more (cited there as its reference 6).
 
 mod cartesian;
+mod determinant;
+mod exact;
 mod forward;
 mod members;
 mod model;
+mod multipteron;
 mod orientation;
 mod tilt;
 mod velocity;
 
 pub use cartesian::{CartesianRobot, CartesianSingular};
-pub use forward::{TripodAssemblies, TripodAssembly, TripodStatus};
+pub use determinant::{DeterminantPoint, TripodDesign};
+pub use forward::{Counted, TripodAssemblies, TripodAssembly, TripodStatus};
 pub use members::{Hexapteron, Quadrupteron, Tripteron};
 pub use model::{Tripod, TripodError, TripodLeg, TripodPose, TripodReach};
+pub use multipteron::{Multipteron, MultipteronError, MultipteronPoses};
 pub use orientation::{Orientations, PlaneConditions};
 pub use tilt::{Tilt, TiltLimit};
 pub use velocity::{TripodSingularity, TripodVelocity};

@@ -50,6 +50,8 @@ const MET: f64 = 1e-12;
 const SAME: f64 = 1e-7;
 /// The normalised determinant below which a rotation counts twice: two meet (heuristic).
 const DOUBLE: f64 = 1e-6;
+/// A start lifted from an exact root is nearer to its rotation than this (heuristic: six digits are left even where eight solutions crowd).
+const NEAR: f64 = 1e-3;
 const NEWTON_STEPS: usize = 30;
 
 impl PlaneConditions {
@@ -95,10 +97,7 @@ impl PlaneConditions {
                 }
             }
         }
-        found.sort_by(|(a, _), (b, _)| {
-            let key = |r: &Rotation3<f64>| r.matrix().iter().map(|x| (x * 1e9).round()).collect::<Vec<_>>();
-            key(a).partial_cmp(&key(b)).unwrap_or(std::cmp::Ordering::Equal)
-        });
+        sort(&mut found);
         account.real = found.iter().map(|(_, multiplicity)| multiplicity).sum::<usize>().min(8);
         account.complex = 8 - account.real;
         Orientations { rotations: found, account, self_motion: false }
@@ -116,6 +115,12 @@ impl PlaneConditions {
     /// How far a rotation is from meeting the conditions.
     pub fn residual(&self, rotation: &Rotation3<f64>) -> f64 {
         self.values(rotation).amax()
+    }
+
+    /// The rotation that Newton's method finds near a start; `None` where it strays or does not settle.
+    pub(super) fn polished_from(&self, seed: Rotation3<f64>) -> Option<Rotation3<f64>> {
+        let (rotation, _) = self.polished(seed)?;
+        ((rotation.matrix() - seed.matrix()).norm() <= NEAR).then_some(rotation)
     }
 
     fn values(&self, rotation: &Rotation3<f64>) -> Vector3<f64> {
@@ -152,6 +157,14 @@ impl PlaneConditions {
         // Slow convergence: a multiple rotation.
         (self.values(&rotation).amax() <= MET.sqrt()).then_some((rotation, 0.0))
     }
+}
+
+/// Rotations in the order of their entries, column by column.
+pub(super) fn sort(rotations: &mut [(Rotation3<f64>, usize)]) {
+    rotations.sort_by(|(a, _), (b, _)| {
+        let key = |r: &Rotation3<f64>| r.matrix().map(|x| (x * 1e9).round());
+        key(a).iter().partial_cmp(key(b).iter()).unwrap_or(std::cmp::Ordering::Equal)
+    });
 }
 
 /// The frame in which the two angles are measured.

@@ -11,6 +11,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use nalgebra::{Rotation3, Vector3};
+use rayon::prelude::*;
 
 use super::super::error::moderate;
 use super::model::{Tripod, TripodError, TripodPose};
@@ -60,6 +61,8 @@ const REFINEMENTS: usize = 24;
 const SETTLED: f64 = 1e-6;
 /// Halvings in the search for a root.
 const DEPTH: u32 = 40;
+/// Half of the farthest tilt that is looked at, 177°: beyond, the tangent runs away; nothing is expected there, and a limit that holds until then is none.
+const FARTHEST: f64 = 0.5 * 3.09;
 /// Arcs of azimuths are not halved below this, in radians.
 const FINEST: f64 = 1e-7;
 
@@ -92,16 +95,17 @@ impl Tripod {
     pub fn tilt(&self, place: &Vector3<f64>) -> Result<Option<Tilt>, TripodError> {
         let Some(frame) = TiltFrame::new(self, place)? else { return Ok(None) };
         let step = TAU / GRID as f64;
-        let mut best = Tilt { angle: PI, azimuth: 0.0, limit: TiltLimit::HalfTurn };
+        // Everything in t = tan(theta/2), which grows with the tilt.
+        let (mut best, mut found) = (FARTHEST.tan(), None);
         let mut table = [[f64::INFINITY; LIMITS]; GRID];
         for (k, row) in table.iter_mut().enumerate() {
             let azimuth = step * k as f64;
             for (j, quadratic) in frame.limits(azimuth).iter().enumerate() {
                 // What ends far beyond the best so far need not be known.
-                if let Some(angle) = first_end(quadratic, (PROMISING * best.angle).min(PI)) {
-                    row[j] = angle;
-                    if angle < best.angle {
-                        best = Tilt { angle, azimuth, limit: frame.limit(j) };
+                if let Some(t) = first_end(quadratic, (PROMISING * best).min(FARTHEST.tan())) {
+                    row[j] = t;
+                    if t < best {
+                        (best, found) = (t, Some((azimuth, j)));
                     }
                 }
             }
@@ -110,16 +114,20 @@ impl Tripod {
         for (j, around) in columns.iter().enumerate() {
             for (k, &here) in around.iter().enumerate() {
                 let (before, after) = (around[(k + GRID - 1) % GRID], around[(k + 1) % GRID]);
-                if here.is_finite() && here <= before && here <= after && here <= PROMISING * best.angle {
-                    let value = |azimuth: f64| first_end(&frame.limits(azimuth)[j], PI).unwrap_or(f64::INFINITY);
-                    let (azimuth, angle) = least(value, step * k as f64, step, [before, here, after]);
-                    if angle < best.angle {
-                        best = Tilt { angle, azimuth: azimuth.rem_euclid(TAU), limit: frame.limit(j) };
+                if here.is_finite() && here <= before && here <= after && here <= PROMISING * best {
+                    let value =
+                        |azimuth: f64| first_end(&frame.one_limit(azimuth, j), FARTHEST.tan()).unwrap_or(f64::INFINITY);
+                    let (azimuth, t) = least(value, step * k as f64, step, [before, here, after]);
+                    if t < best {
+                        (best, found) = (t, Some((azimuth.rem_euclid(TAU), j)));
                     }
                 }
             }
         }
-        Ok(Some(best))
+        Ok(Some(match found {
+            Some((azimuth, j)) => Tilt { angle: 2.0 * best.atan(), azimuth, limit: frame.limit(j) },
+            None => Tilt { angle: PI, azimuth: 0.0, limit: TiltLimit::HalfTurn },
+        }))
     }
 
     /// The largest tilt in one azimuth (radians), exactly: the first root of a quartic for each limit; `None` as for [`Tripod::tilt`].
@@ -129,13 +137,13 @@ impl Tripod {
     pub fn tilt_along(&self, place: &Vector3<f64>, azimuth: f64) -> Result<Option<(f64, TiltLimit)>, TripodError> {
         moderate(|| "azimuth".to_owned(), azimuth)?;
         let Some(frame) = TiltFrame::new(self, place)? else { return Ok(None) };
-        let mut best = (PI, TiltLimit::HalfTurn);
+        let (mut best, mut limit) = (FARTHEST.tan(), None);
         for (j, quadratic) in frame.limits(azimuth).iter().enumerate() {
-            if let Some(angle) = first_end(quadratic, best.0) {
-                best = (angle, frame.limit(j));
+            if let Some(t) = first_end(quadratic, best) {
+                (best, limit) = (t, Some(j));
             }
         }
-        Ok(Some(best))
+        Ok(Some(limit.map_or((PI, TiltLimit::HalfTurn), |j| (2.0 * best.atan(), frame.limit(j)))))
     }
 
     /// A tilt that every azimuth is shown to allow, at most `tolerance` (radians) below `tilt`, which [`Tripod::tilt`] gave; `None` where that is not shown.
@@ -162,7 +170,7 @@ impl Tripod {
                 lowered[0] -= slack[j];
                 // The limits hold at home; the loss grows with the tilt, so small tilts are looked at with a smaller one.
                 positive_up_to(quadratic, &|theta: f64| slack[j] * theta / claimed, claimed) || {
-                    first_end(&lowered, claimed).is_none() && value(&lowered, 1.0, 0.0) > 0.0
+                    first_end(&lowered, (0.5 * claimed).tan()).is_none() && value(&lowered, 1.0, 0.0) > 0.0
                 }
             };
             if frame.limits(middle).iter().enumerate().all(holds) {
@@ -176,26 +184,37 @@ impl Tripod {
         Ok(Some(claimed))
     }
 
-    /// Largest tilts over a grid of places `corner + i·along[0] + j·along[1]`, row by row in `j`; `None` where out of limits or without a plane. `progress` is told the rows done.
+    /// Largest tilts over a grid of places `corner + i·along[0] + j·along[1]`, row by row in `j`; `None` where out of limits or without a plane. `progress` is told, from any
+    /// thread, that another row is done.
+    ///
+    /// Rows are shared out among rayon's threads; the values do not depend on how many there are. **Cost**: [`Tripod::tilt`] a place.
     ///
     /// # Errors
     /// A place that is not finite.
+    ///
+    /// ```
+    /// use assur::{Tripod, nalgebra::Vector3};
+    /// let robot = Tripod::cartesian_example();
+    /// let along = [Vector3::x() * 100.0, Vector3::y() * 100.0];
+    /// let map = robot.tilt_map(&Vector3::new(50.0, 50.0, 150.0), along, [4, 3], || ())?;
+    /// assert_eq!((map.len(), map.iter().flatten().count()), (12, 12));
+    /// # Ok::<(), assur::TripodError>(())
+    /// ```
     pub fn tilt_map(
         &self,
         corner: &Vector3<f64>,
         along: [Vector3<f64>; 2],
         size: [usize; 2],
-        mut progress: impl FnMut(usize),
+        progress: impl Fn() + Sync,
     ) -> Result<Vec<Option<f64>>, TripodError> {
-        let mut values = Vec::with_capacity(size[0] * size[1]);
-        for row in 0..size[1] {
-            for column in 0..size[0] {
-                let place = corner + along[0] * column as f64 + along[1] * row as f64;
-                values.push(self.tilt(&place)?.map(|tilt| tilt.angle));
-            }
-            progress(row + 1);
-        }
-        Ok(values)
+        let row = |row: usize| -> Result<Vec<Option<f64>>, TripodError> {
+            let place = |column: usize| corner + along[0] * column as f64 + along[1] * row as f64;
+            let values = (0..size[0]).map(|column| Ok(self.tilt(&place(column))?.map(|tilt| tilt.angle))).collect();
+            progress();
+            values
+        };
+        let rows: Vec<_> = (0..size[1]).into_par_iter().map(row).collect::<Result<_, _>>()?;
+        Ok(rows.concat())
     }
 
     /// The paper's robot as the maps have it: `d1 = 600`, `d2 = 720`, strokes 0 to 500, planes within 40°, the tool's point 150 behind the platform's origin along `(1, 1, 1)`.
@@ -247,46 +266,68 @@ impl<'a> TiltFrame<'a> {
 
     /// Every limit in one azimuth, not negative where it is kept.
     fn limits(&self, azimuth: f64) -> [Order2; LIMITS] {
+        let axis = self.axis(azimuth);
+        let mut limits = [NEVER; LIMITS];
+        for leg in 0..3 {
+            let of_leg = self.leg_limits(axis, leg);
+            limits[4 * leg..4 * leg + 4].copy_from_slice(&of_leg[..4]);
+            limits[12 + 2 * leg..14 + 2 * leg].copy_from_slice(&of_leg[4..6]);
+            limits[18 + leg] = of_leg[6];
+        }
+        limits
+    }
+
+    /// One of them.
+    fn one_limit(&self, azimuth: f64, j: usize) -> Order2 {
+        let (leg, place) = match j {
+            0..12 => (j / 4, j % 4),
+            12..18 => ((j - 12) / 2, 4 + j % 2),
+            _ => (j - 18, 6),
+        };
+        self.leg_limits(self.axis(azimuth), leg)[place]
+    }
+
+    /// The tilt axis of an azimuth.
+    fn axis(&self, azimuth: f64) -> Vector3<f64> {
         let (sine, cosine) = azimuth.sin_cos();
-        let a = self.axes[0] * cosine + self.axes[1] * sine;
+        self.axes[0] * cosine + self.axes[1] * sine
+    }
+
+    /// The limits of one leg: both ends of both strokes, the plane's angle either way, the plane along the rails.
+    fn leg_limits(&self, a: Vector3<f64>, k: usize) -> [Order2; 7] {
         // A rotated vector is x + y cos + z sin.
         let turned = |v: &Vector3<f64>| {
             let fixed = a * a.dot(v);
             [fixed, v - fixed, a.cross(v)]
         };
-        let mut limits = [NEVER; LIMITS];
-        for (k, leg) in self.robot.legs.iter().enumerate() {
-            let normal = turned(&leg.v).map(|part| part.cross(&leg.w) * self.signs[k]);
-            let arm = turned(&(leg.c - self.robot.tool));
-            let first = |d: &Vector3<f64>| [normal[0].dot(d), normal[1].dot(d), normal[2].dot(d), 0.0, 0.0];
-            let along = first(&leg.u);
-            limits[18 + k] = along;
-            if let Some(tangent) = self.tangent {
-                let across = first(&leg.across());
-                for i in 0..3 {
-                    limits[12 + 2 * k][i] = tangent * along[i] - across[i];
-                    limits[13 + 2 * k][i] = tangent * along[i] + across[i];
-                }
-                [limits[12 + 2 * k][3], limits[13 + 2 * k][3]] = [0.0; 2];
-            }
-            let Some(strokes) = &self.robot.strokes else { continue };
-            let ss = normal[2].dot(&arm[2]);
-            let arms = [
-                normal[0].dot(&arm[0]) + ss,
-                normal[0].dot(&arm[1]) + normal[1].dot(&arm[0]),
-                normal[0].dot(&arm[2]) + normal[2].dot(&arm[0]),
-                normal[1].dot(&arm[1]) - ss,
-                normal[1].dot(&arm[2]) + normal[2].dot(&arm[1]),
-            ];
-            for (slider, rail) in [leg.da, leg.db].into_iter().enumerate() {
-                let rest = first(&(self.place - rail));
-                let [low, high] = strokes[2 * k + slider];
-                let row = 4 * k + 2 * slider;
-                for i in 0..5 {
-                    let height = arms[i] + rest[i];
-                    limits[row][i] = height - low * along[i];
-                    limits[row + 1][i] = high * along[i] - height;
-                }
+        let mut limits = [NEVER; 7];
+        let leg = &self.robot.legs[k];
+        let normal = turned(&leg.v).map(|part| part.cross(&leg.w) * self.signs[k]);
+        let first = |d: &Vector3<f64>| [normal[0].dot(d), normal[1].dot(d), normal[2].dot(d), 0.0, 0.0];
+        let along = first(&leg.u);
+        limits[6] = along;
+        if let Some(tangent) = self.tangent {
+            let across = first(&leg.across());
+            limits[4] = std::array::from_fn(|i| tangent * along[i] - across[i]);
+            limits[5] = std::array::from_fn(|i| tangent * along[i] + across[i]);
+        }
+        let Some(strokes) = &self.robot.strokes else { return limits };
+        let arm = turned(&(leg.c - self.robot.tool));
+        let ss = normal[2].dot(&arm[2]);
+        let arms = [
+            normal[0].dot(&arm[0]) + ss,
+            normal[0].dot(&arm[1]) + normal[1].dot(&arm[0]),
+            normal[0].dot(&arm[2]) + normal[2].dot(&arm[0]),
+            normal[1].dot(&arm[1]) - ss,
+            normal[1].dot(&arm[2]) + normal[2].dot(&arm[1]),
+        ];
+        for (slider, rail) in [leg.da, leg.db].into_iter().enumerate() {
+            let rest = first(&(self.place - rail));
+            let [low, high] = strokes[2 * k + slider];
+            for i in 0..5 {
+                let height = arms[i] + rest[i];
+                limits[2 * slider][i] = height - low * along[i];
+                limits[2 * slider + 1][i] = high * along[i] - height;
             }
         }
         limits
@@ -343,11 +384,9 @@ fn bernstein(k: &Order2, h: f64) -> [f64; 5] {
     ]
 }
 
-/// The first tilt in `(0, until)` at which a limit that holds at 0 turns negative.
+/// The first `t = tan(theta/2)` in `(0, until)` at which a limit that holds at 0 turns negative.
 fn first_end(k: &Order2, until: f64) -> Option<f64> {
-    // Beyond 177° the half-angle runs away; nothing is expected there, and a limit that holds until then is none.
-    let h = (0.5 * until.min(3.09)).tan();
-    first_root(bernstein(k, h), 0.0, h, DEPTH).map(|t| 2.0 * t.atan())
+    first_root(bernstein(k, until), 0.0, until, DEPTH)
 }
 
 /// The first root over a cell, given its Bernstein coefficients, at which the polynomial turns negative.
@@ -520,8 +559,8 @@ mod tests {
         let k0 = 0.5 * (q[2] / 2.0 + (q[0] + q[4]) / 2.0);
         let k3 = 0.5 * ((q[0] + q[4]) / 2.0 - q[2] / 2.0);
         let k = [k0, (q[0] - q[4]) / 2.0, (q[1] + q[3]) / 4.0, k3, (q[1] - q[3]) / 4.0];
-        let end = first_end(&k, 3.0).expect("ends");
-        assert!(((0.5 * end).tan() - 0.25).abs() < 1e-14);
-        assert_eq!(first_end(&k, 0.4), None);
+        let end = first_end(&k, FARTHEST.tan()).expect("ends");
+        assert!((end - 0.25).abs() < 1e-14);
+        assert_eq!(first_end(&k, 0.2), None);
     }
 }

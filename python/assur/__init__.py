@@ -1,0 +1,67 @@
+"""Every assembly mode of planar mechanisms: solved completely, and proved on request.
+
+>>> import assur
+>>> robot, inputs = assur.Manipulator.of_family("3-RPR")
+>>> answer = robot.forward(inputs)
+>>> answer.status
+'complete'
+
+Lengths are in the model's unit, angles are radians, poses are ``x, y, phi`` of the platform in the base frame. Results are frozen, print as a table,
+draw themselves in a notebook, and keep the report that the command line prints with ``--json`` (:meth:`to_json`).
+"""
+
+from ._assur import __version__
+from .claims import Claim, Verification
+from .errors import AssurError, InputError, ModelError
+from .groups import CouplerCurve, GroupAssemblies, LinkageAssemblies, coupler, group, triad
+from .loci import SingularityLoci
+from .manipulator import Manipulator
+from .modes import Account, AssemblyModes, Mode, ModesBatch
+from .motion import Velocity, WorkingMode, WorkingModes
+from .paths import FollowedPath
+from .spatial import ArcRegion, Hana, HanaAssemblies, HanaTilts, HanaVelocity, HanaWays, Tilt, TiltMap, Tripod
+from .spatial import TripodAssemblies, TripodVelocity, TripodWay
+from .sweeps import Design, Sweep, sweep, vary
+from .workspaces import Region
+
+__all__ = [
+    "Account",
+    "ArcRegion",
+    "AssemblyModes",
+    "AssurError",
+    "Claim",
+    "CouplerCurve",
+    "Design",
+    "FollowedPath",
+    "GroupAssemblies",
+    "Hana",
+    "HanaAssemblies",
+    "HanaTilts",
+    "HanaVelocity",
+    "HanaWays",
+    "InputError",
+    "LinkageAssemblies",
+    "Manipulator",
+    "Mode",
+    "ModelError",
+    "ModesBatch",
+    "Region",
+    "SingularityLoci",
+    "Sweep",
+    "Tilt",
+    "TiltMap",
+    "Tripod",
+    "TripodAssemblies",
+    "TripodVelocity",
+    "TripodWay",
+    "Velocity",
+    "Verification",
+    "WorkingMode",
+    "WorkingModes",
+    "__version__",
+    "coupler",
+    "group",
+    "sweep",
+    "triad",
+    "vary",
+]

@@ -1,0 +1,410 @@
+"""A planar parallel manipulator with three actuators, and what can be asked of it."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Literal, overload
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _assur
+from ._arrays import FloatArray, number, one_or_rows, optional_vector, rows, vector
+from ._problems import Problem
+from ._report import Report, result
+from .claims import Verification
+from .errors import InputError
+from .loci import SingularityLoci
+from .modes import AssemblyModes, ModesBatch
+from .motion import Velocity, WorkingModes
+from .paths import FollowedPath
+from .workspaces import Region
+
+__all__ = ["Manipulator"]
+
+#: How far a claimed pose may be from a mode, as on the command line: radians, and displacements over the size.
+TOLERANCE = 1e-6
+
+
+class Manipulator:
+    """A planar parallel manipulator: a platform on three legs (or two), with three actuators.
+
+    Made from a model file (:meth:`from_file`), from a mapping with the same keys (:meth:`from_dict`), or as an example of a family
+    (:meth:`of_family`). It never changes. Lengths are in the model's unit; angles are radians in every call and answer, whatever unit
+    the file is written in.
+
+    Examples
+    --------
+    >>> import assur
+    >>> robot, inputs = assur.Manipulator.of_family("3-RPR")
+    >>> answer = robot.forward(inputs)
+    >>> answer.account.degree
+    6
+    """
+
+    __slots__ = ("_model",)
+
+    def __init__(self, model: _assur.Model) -> None:
+        self._model = model
+
+    @classmethod
+    def from_file(cls, path: str | os.PathLike[str]) -> Manipulator:
+        """The manipulator in a model file, TOML or JSON by its ending.
+
+        Raises
+        ------
+        ModelError
+            One line that names file, leg, field and value, which are attributes as well.
+        """
+        return cls(_assur.Model.read(Path(path)))
+
+    @classmethod
+    def from_dict(cls, model: Mapping[str, Any]) -> Manipulator:
+        """The manipulator in a mapping with the keys of a model file; lists may be arrays.
+
+        Raises
+        ------
+        ModelError
+            As :meth:`from_file`.
+        """
+        text, name = Problem.of(dict(model))
+        return cls(_assur.Model.parse(text, name))
+
+    @classmethod
+    def of_family(cls, family: str) -> tuple[Manipulator, FloatArray]:
+        """A manipulator of a family, with inputs to try.
+
+        Parameters
+        ----------
+        family : str
+            ``"3-RPR"``, ``"3-RRR"``, ``"3-PRR"``, ``"3-RRP"``, ``"3-PRP"``, ``"3-PPR"``, ``"3-RPP"``, with the actuated joint marked
+            ``"3-_R_RR"``, or three legs ``"R_P_R,_P_RR,_R_RR"``.
+        """
+        try:
+            model, inputs = _assur.Model.of_family(family)
+        except ValueError as error:
+            raise InputError(str(error), field="family", value=family) from None
+        return cls(model), np.array(inputs)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The model as a mapping with the keys of a model file, numbers to the last bit."""
+        document: dict[str, Any] = json.loads(self._model.to_json())
+        return document
+
+    def to_json(self) -> str:
+        """The model as a JSON model file."""
+        return self._model.to_json()
+
+    def to_toml(self) -> str:
+        """The model as a commented TOML model file."""
+        return self._model.to_toml()
+
+    def with_numbers(self, numbers: Mapping[str, float]) -> Manipulator:
+        """This manipulator with some numbers of the design changed.
+
+        Parameters
+        ----------
+        numbers : mapping from key to float
+            Keys as on the command line: ``"leg1.platform.at.x"``, ``"leg2.base.angle"``, ``"leg1.links2"`` (a length),
+            ``"leg3.limits.max"``, ``"legs.links1"`` of every leg, ``"reference.x"``. Angles in radians.
+
+        Raises
+        ------
+        InputError
+            A key that names no number of the design.
+        ModelError
+            Numbers that make no manipulator.
+        """
+        return Manipulator(self._model.with_numbers([(key, number(key, value)) for key, value in numbers.items()]))
+
+    @property
+    def name(self) -> str:
+        """The name for people."""
+        return self._model.name
+
+    @property
+    def family(self) -> str:
+        """The family: ``"3-R_P_R"``, actuated joints between underscores."""
+        return self._model.family
+
+    @property
+    def angle_unit(self) -> str:
+        """The unit of angles in the model's file, ``"rad"`` or ``"deg"``; calls and answers are in radians all the same."""
+        return self._model.angle_unit
+
+    @property
+    def title(self) -> str:
+        """The name, or the family where there is none."""
+        return self.name or self.family
+
+    def check(self) -> dict[str, Any]:
+        """What mechanism this is: legs, locked group, degree bound, remarks."""
+        document: dict[str, Any] = json.loads(self._model.check())
+        return document
+
+    def _repr_html_(self) -> str:
+        import html
+
+        check = self.check()
+        bound = "" if check["degree_bound"] is None else f", at most {check['degree_bound']} assembly modes"
+        remarks = "".join(f"<li>{html.escape(remark['text'])}</li>" for remark in check["remarks"])
+        what = f"{html.escape(check['family'])}, locked {html.escape(check['group'] or 'no triad')}{bound}"
+        return f"<div><b>{html.escape(self.title)}</b>: {what}<ul>{remarks}</ul></div>"
+
+    def __repr__(self) -> str:
+        return f"Manipulator({self.title!r}, {self.family})"
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Manipulator) and self.to_json() == other.to_json()
+
+    def __hash__(self) -> int:
+        return hash(self.to_json())
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _from_json, (self.to_json(),)
+
+    @overload
+    def forward(self, inputs: list[float] | tuple[float, float, float], *, certify: bool = False) -> AssemblyModes: ...
+    @overload
+    def forward(self, inputs: ArrayLike, *, certify: Literal[True]) -> AssemblyModes: ...
+    @overload
+    def forward(self, inputs: ArrayLike, *, certify: bool = False) -> Any: ...
+    def forward(self, inputs: ArrayLike, *, certify: bool = False) -> Any:
+        """Every assembly mode for given actuator values.
+
+        Parameters
+        ----------
+        inputs : array_like, shape (3,) or (n, 3)
+            Actuator values, leg 1 first; lengths, or radians. A C-contiguous float64 array is read where it is, without copying.
+        certify : bool
+            Whether the answer is to be proved; for one row only.
+
+        Returns
+        -------
+        AssemblyModes
+            For one row: all modes, non-real solutions, the account, on request the proofs.
+        ModesBatch
+            For ``(n, 3)``: the poses alone, on all processors, with the interpreter lock released. A row that cannot be asked is masked
+            and has its reason in ``errors``. Memory: 146 bytes a row.
+
+        Raises
+        ------
+        InputError
+            A wrong shape or dtype; for one row also values that are not finite or outside limits.
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> robot, inputs = assur.Manipulator.of_family("3-RPR")
+        >>> many = robot.forward(np.array([inputs, 1.1 * inputs]))
+        >>> many.poses.shape
+        (2, 6, 3)
+        """
+        given = one_or_rows("inputs", inputs, 3)
+        if isinstance(given, list):
+            return result(AssemblyModes, self._model.forward(given, bool(certify)), self)
+        if certify:
+            raise InputError("certify: proofs are for one row of inputs, shape (3,)", field="certify", value=True)
+        return self.forward_batch(given)
+
+    def forward_batch(self, inputs: ArrayLike) -> ModesBatch:
+        """:meth:`forward` of many rows, shape ``(n, 3)``, under a name that is always the batch."""
+        given = rows("inputs", inputs, 3)
+        return ModesBatch._of(given, self._model.forward_batch(given))
+
+    def certify(self, inputs: ArrayLike) -> AssemblyModes:
+        """:meth:`forward` of one row, proved: a box around every mode that holds it and no other."""
+        return result(AssemblyModes, self._model.forward(vector("inputs", inputs, 3), True), self)
+
+    def inverse(self, pose: ArrayLike) -> WorkingModes:
+        """Every working mode of a pose.
+
+        Parameters
+        ----------
+        pose : array_like, shape (3,)
+            ``x, y, phi`` of the platform in the base frame; ``phi`` in radians.
+
+        Returns
+        -------
+        WorkingModes
+            Without modes where a leg does not reach, with how far it misses.
+
+        Raises
+        ------
+        InputError
+            A wrong shape, or a pose that is not finite.
+        """
+        return result(WorkingModes, self._model.inverse(vector("pose", pose, 3)), self)
+
+    def velocity(
+        self,
+        pose: ArrayLike,
+        mode: str | None = None,
+        *,
+        rates: ArrayLike | None = None,
+        accelerations: ArrayLike | None = None,
+        wrench: ArrayLike | None = None,
+        length: float | None = None,
+    ) -> Velocity:
+        """The two matrices of a pose, its kind of singularity, and its motion and forces.
+
+        Parameters
+        ----------
+        pose : array_like, shape (3,)
+            ``x, y, phi``.
+        mode : str, optional
+            The working mode, as ``"+-+"``; without it the only one, or the only one within the limits.
+        rates, accelerations : array_like, shape (3,), optional
+            Of the platform or of the actuators: answered both ways. Per unit of time, angles in radians.
+        wrench : array_like, shape (3,), optional
+            Force and moment on the platform, about its origin.
+        length : float, optional
+            What weighs turning against moving; the platform's size without it.
+
+        Raises
+        ------
+        InputError
+            A leg that does not reach, a mode that is none or could be several, numbers that are not finite.
+        """
+        answer = self._model.velocity(
+            vector("pose", pose, 3),
+            mode,
+            optional_vector("rates", rates, 3),
+            optional_vector("accelerations", accelerations, 3),
+            optional_vector("wrench", wrench, 3),
+            None if length is None else number("length", length),
+        )
+        return result(Velocity, answer, self)
+
+    def singularities(
+        self, phi: float, mode: str | None = None, *, map: str | None = None, polynomial: bool = True
+    ) -> SingularityLoci:
+        """Where the manipulator is singular for an orientation, and how well it is held elsewhere.
+
+        Parameters
+        ----------
+        phi : float
+            The orientation, radians.
+        mode : str, optional
+            One working mode; all without it. A map is of this mode, or of the first.
+        map : {"dexterity", "accuracy", "stiffness"}, optional
+            A quantity over the plane.
+        polynomial : bool
+            Whether the exact curve of all modes is wanted: below a millisecond for 3-RPR, seconds for 3-RRR.
+        """
+        known = ("dexterity", "accuracy", "stiffness")
+        if map is not None and map not in known:
+            raise InputError(f"map: {map!r} must be one of {', '.join(known)}", field="map", value=map)
+        answer = self._model.singularities(number("phi", phi), mode, map, bool(polynomial))
+        return result(SingularityLoci, answer, self)
+
+    def follow(self, path: ArrayLike, start: ArrayLike | None = None) -> FollowedPath:
+        """One assembly mode followed through rows of inputs, each stretch shown to hold no other.
+
+        Parameters
+        ----------
+        path : array_like, shape (n, 3)
+            Rows of actuator values.
+        start : array_like, shape (3,), optional
+            Pose of the mode at the first row; without it the first mode.
+
+        Raises
+        ------
+        InputError
+            A row that is not finite, a start that is no mode.
+        """
+        answer = self._model.follow(rows("path", path, 3), optional_vector("start", start, 3))
+        return result(FollowedPath, answer, self)
+
+    def workspace(
+        self,
+        kind: str = "maximal",
+        *,
+        phi: float | None = None,
+        lower: float | None = None,
+        upper: float | None = None,
+        mode: str = "both",
+    ) -> Region:
+        """Where the reference point can reach, exactly; of legs RPR, RRR and PRR in any mixture.
+
+        Parameters
+        ----------
+        kind : {"constant", "maximal", "inclusive", "total", "dextrous"}
+            Reached with the orientation ``phi``; with some orientation; with some between ``lower`` and ``upper``; with every one between
+            them; with every orientation.
+        phi, lower, upper : float
+            Radians; a range runs counter-clockwise, equal ends are that single orientation, a full turn or more is every one.
+        mode : str
+            ``"both"``, or a sign for each leg.
+
+        Raises
+        ------
+        InputError
+            A leg that is not covered or not bounded, angles that the kind does not take or lacks.
+        """
+        angles = _angles_of(kind, phi, lower, upper)
+        question = (kind, angles, mode)
+        answer, shape = self._model.workspace(*question)
+        found = result(Region, answer, (self, question))
+        # The cache of the property: what is there need not be made again.
+        found.__dict__["_shape"] = shape
+        return found
+
+    def verify(
+        self, claims: Report | Mapping[str, Any] | str | os.PathLike[str], tolerance: float = TOLERANCE
+    ) -> Verification:
+        """Whether claimed poses are assembly modes, each proven or refuted, and which modes the claims miss.
+
+        Parameters
+        ----------
+        claims : result, mapping or path
+            An answer of :meth:`forward`; or a mapping or file of any program with ``inputs`` and ``poses``, a list of ``[x, y, phi]``.
+        tolerance : float
+            How far a claim may be from a mode: radians, and displacements over the mechanism's size.
+        """
+        if isinstance(claims, Report):
+            text, name = claims.to_json(), "report.json"
+        else:
+            text, name = Problem.of(claims)
+        return result(Verification, self._model.verify(text, name, number("tolerance", tolerance)), self)
+
+    def frames(self, joints: ArrayLike) -> FloatArray:
+        """Where the joints of every leg are, for given joint values.
+
+        Parameters
+        ----------
+        joints : array_like, shape (legs, 3)
+            As :attr:`Mode.joints`.
+
+        Returns
+        -------
+        ndarray, shape (legs, 3, 2, 3)
+            ``x, y, angle`` of the frame before and after each joint, in the base frame.
+        """
+        values = rows("joints", joints, 3)
+        return self._model.frames(values.tolist()).reshape(len(values), 3, 2, 3)
+
+
+#: The angles that each kind of workspace takes.
+_TAKES = {"constant": ("phi",), "maximal": (), "inclusive": ("lower", "upper"), "total": ("lower", "upper"), "dextrous": ()}
+
+
+def _angles_of(kind: str, phi: float | None, lower: float | None, upper: float | None) -> list[float]:
+    if kind not in _TAKES:
+        raise InputError(f"kind: {kind!r} must be one of {', '.join(_TAKES)}", field="kind", value=kind)
+    given = {"phi": phi, "lower": lower, "upper": upper}
+    for name, value in given.items():
+        if value is None and name in _TAKES[kind]:
+            raise InputError(f"{name}: the kind {kind} needs it", field=name)
+        if value is not None and name not in _TAKES[kind]:
+            raise InputError(f"{name}: the kind {kind} takes none", field=name, value=value)
+    return [0.0 if value is None else number(name, value) for name, value in given.items()]
+
+
+def _from_json(text: str) -> Manipulator:
+    return Manipulator(_assur.Model.parse(text, "pickle.json"))
+
+

@@ -1,0 +1,216 @@
+"""Where a manipulator can reach, exactly: closed loops of circular arcs, segments and coupler curves. Angles in radians."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _assur
+from ._arrays import FloatArray, rows
+from ._report import Report, number
+from .errors import InputError
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+__all__ = ["BoundaryArc", "BoundaryLoop", "Isolated", "Memberships", "Region"]
+
+#: Points along each arc where an outline is made of straight pieces.
+POINTS = 64
+
+
+@dataclass(frozen=True, eq=False)
+class BoundaryArc:
+    """A piece of boundary, the region on its left.
+
+    Attributes
+    ----------
+    curve : str
+        ``"line"``, ``"circle"``, ``"ellipse"`` or ``"coupler"``, with what defines it.
+    start, end : ndarray, shape (2,)
+    active : tuple of str
+        The limits active on it: ``"leg 1 max"``, ``"leg 2 side"``, ``"phi from"``.
+    center, radius, start_angle, end_angle
+        Of a circle.
+    pair, sigma, phi_start, phi_end
+        Of an ellipse or coupler curve: the two limits held at once, and the orientations at its ends.
+    """
+
+    curve: str
+    start: FloatArray
+    end: FloatArray
+    active: tuple[str, ...]
+    center: FloatArray | None
+    radius: float | None
+    start_angle: float | None
+    end_angle: float | None
+    pair: list[dict[str, Any]] | None
+    sigma: float | None
+    phi_start: float | None
+    phi_end: float | None
+
+
+@dataclass(frozen=True, eq=False)
+class BoundaryLoop:
+    """A closed boundary; its area is positive for an outer one, which runs counter-clockwise, and negative for a hole."""
+
+    area: float
+    arcs: tuple[BoundaryArc, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Isolated:
+    """A point (``at``) or curve of the workspace that has no area."""
+
+    curve: str
+    active: tuple[str, ...]
+    at: FloatArray | None
+    start: FloatArray | None
+    end: FloatArray | None
+    center: FloatArray | None
+    radius: float | None
+    start_angle: float | None
+    end_angle: float | None
+    pair: list[dict[str, Any]] | None
+    sigma: float | None
+    phi_start: float | None
+    phi_end: float | None
+
+
+@dataclass(frozen=True, eq=False)
+class Memberships:
+    """Of many places: whether each is inside, how far it is from the boundary, and what binds there.
+
+    Attributes
+    ----------
+    inside : ndarray of bool, shape (n,)
+    margin : ndarray, shape (n,)
+        Length units: how far the point may be moved without turning the platform before a limit is met; negative outside, and -inf
+        where no orientation is allowed.
+    binding : tuple of (str or None), length n
+    """
+
+    inside: NDArray[np.bool_]
+    margin: FloatArray
+    binding: tuple[str | None, ...]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Region(Report):
+    """A workspace of a manipulator's reference point, exactly.
+
+    Attributes
+    ----------
+    kind : str
+        ``"constant"``, ``"maximal"``, ``"inclusive"``, ``"total"`` or ``"dextrous"``.
+    phi, lower, upper : float or None
+        The orientation, or the range of orientations asked for, radians.
+    mode : str
+        Working modes that count: ``"both"`` or signs.
+    area, perimeter : float
+        In closed form up to the integrals of coupler curves, which are to rounding.
+    centroid : ndarray, shape (2,), or None
+    bbox : ndarray, shape (4,), or None
+        ``xmin, ymin, xmax, ymax``.
+    components, holes : int
+        Pieces of positive area; pieces that touch in a point count as two.
+    loops : tuple of BoundaryLoop
+        Outer ones run counter-clockwise, holes clockwise.
+    isolated : tuple of Isolated
+        Points and curves of no area.
+    separating : tuple of BoundaryArc
+        Arcs inside where a way of reaching the places ends.
+    """
+
+    kind: str
+    phi: float | None
+    lower: float | None
+    upper: float | None
+    mode: str
+    status: str
+    area: float
+    perimeter: float
+    centroid: FloatArray | None
+    bbox: FloatArray | None
+    components: int
+    holes: int
+    loops: tuple[BoundaryLoop, ...]
+    isolated: tuple[Isolated, ...]
+    separating: tuple[BoundaryArc, ...]
+
+    _renamed: ClassVar[Mapping[str, str]] = {"from": "lower", "to": "upper"}
+
+    @cached_property
+    def _shape(self) -> _assur.Shape:
+        """What the library knows of the region; made again where the result has travelled."""
+        robot, question = self._origin
+        shape: _assur.Shape = robot._model.workspace(*question)[1]
+        return shape
+
+    def memberships(self, points: ArrayLike) -> Memberships:
+        """Whether places are inside, how far from the boundary, and what binds there.
+
+        Parameters
+        ----------
+        points : array_like, shape (n, 2)
+
+        Raises
+        ------
+        InputError
+            A wrong shape; a place that is not finite.
+        """
+        given = rows("points", points, 2)
+        for row in np.flatnonzero(~np.isfinite(given).all(axis=1)):
+            place = given[row].tolist()
+            raise InputError(f"points: row {row}: {place} must be finite", row=int(row), field="points", value=place)
+        inside, margin, binding = self._shape.memberships(given)
+        return Memberships(inside, margin, tuple(binding))
+
+    def contains(self, points: ArrayLike) -> NDArray[np.bool_]:
+        """Whether places are inside, boundary included; shape ``(n,)`` for points of shape ``(n, 2)``, decided exactly."""
+        return self.memberships(points).inside
+
+    def outlines(self, points: int = POINTS) -> list[NDArray[np.float64]]:
+        """The loops as closed polygons, ``points`` to each curved arc, in the order of ``loops``; each of shape ``(n, 2)``."""
+        return [np.asarray(flat).reshape(-1, 2) for flat in self._shape.outlines(points)]
+
+    def to_shapely(self, points: int = POINTS) -> Any:
+        """The region as a shapely ``MultiPolygon``, curves as polygons of ``points`` each; needs shapely."""
+        import shapely
+
+        outlines = self.outlines(points)
+        outer = [line for line, loop in zip(outlines, self.loops, strict=True) if loop.area > 0]
+        holes = [line for line, loop in zip(outlines, self.loops, strict=True) if loop.area <= 0]
+        whole = shapely.union_all([shapely.make_valid(shapely.Polygon(line)) for line in outer])
+        cut = shapely.union_all([shapely.make_valid(shapely.Polygon(line)) for line in holes])
+        found = shapely.difference(whole, cut)
+        parts = [part for part in getattr(found, "geoms", [found]) if part.geom_type == "Polygon" and not part.is_empty]
+        return shapely.MultiPolygon(parts)
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draws the region with its boundary, arc by arc as they are limited; returns the axes, shows nothing."""
+        from . import _plot
+
+        return _plot.region(self, ax)
+
+    def _title(self) -> str:
+        asked = "" if self.phi is None else f" at phi = {number(self.phi)}"
+        if self.lower is not None and self.upper is not None:
+            asked = f" over phi from {number(self.lower)} to {number(self.upper)}"
+        return f"{self.kind} workspace{asked}, mode {self.mode}"
+
+    def _table(self) -> list[list[str]]:
+        table = [
+            [str(place), number(loop.area), str(len(loop.arcs)), ", ".join(dict.fromkeys(a for arc in loop.arcs for a in arc.active))]
+            for place, loop in enumerate(self.loops, 1)
+        ]
+        return [["loop", "area", "arcs", "limits"], *table] if table else []
+
+    def _summary(self) -> str:
+        pieces = f"{self.components} components, {self.holes} holes"
+        return f"area {number(self.area)}, perimeter {number(self.perimeter)}, {pieces}" if self.components else "empty"

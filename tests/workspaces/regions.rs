@@ -1,0 +1,348 @@
+//! Regions against brute force: both sides of every arc, random lines across them, loops that close, areas, laws.
+
+use assur::nalgebra::{Rotation2, Vector2};
+use assur::workspace::{Isolated, Region, WorkspaceError, WorkspaceKind};
+use assur::{Manipulator, Placement};
+
+use crate::membership::{NEAR, kind_of, modes_of, written};
+use crate::models::{Case, TROUBLES, Trouble, questions, random_case, scale};
+use crate::oracle::{MANY_SAMPLES, Oracle, Question, SAMPLES, Verdict};
+use crate::random::Random;
+
+/// Points along an arc for its polygon.
+const POLYGON: usize = 257;
+/// What a random line may miss a region's boundary by, in the size's part: the polygons' own error.
+const CHORD: f64 = 1e-4;
+
+/// A region as polygons.
+struct Polygons(Vec<Vec<[f64; 2]>>);
+
+impl Polygons {
+    fn of(region: &Region) -> Self {
+        let outline = |one: &assur::workspace::Loop| {
+            one.arcs
+                .iter()
+                .flat_map(|arc| {
+                    let mut points = arc.points(POLYGON);
+                    points.pop();
+                    points
+                })
+                .collect()
+        };
+        Self(region.loops.iter().map(outline).collect())
+    }
+
+    fn area(&self) -> f64 {
+        let shoelace = |points: &Vec<[f64; 2]>| {
+            let pairs = points.iter().zip(points.iter().cycle().skip(1));
+            // Differences to the first corner keep the digits of small loops far from the origin.
+            let [x0, y0] = points[0];
+            pairs.map(|(p, q)| (p[0] - x0) * (q[1] - y0) - (q[0] - x0) * (p[1] - y0)).sum::<f64>() / 2.0
+        };
+        self.0.iter().filter(|points| !points.is_empty()).map(shoelace).sum()
+    }
+
+    /// How often the loops run around a point.
+    fn winding(&self, [x, y]: [f64; 2]) -> i32 {
+        let mut turns = 0;
+        for points in &self.0 {
+            for (p, q) in points.iter().zip(points.iter().cycle().skip(1)) {
+                let side = (q[0] - p[0]) * (y - p[1]) - (x - p[0]) * (q[1] - p[1]);
+                if p[1] <= y && q[1] > y && side > 0.0 {
+                    turns += 1;
+                } else if p[1] > y && q[1] <= y && side < 0.0 {
+                    turns -= 1;
+                }
+            }
+        }
+        turns
+    }
+
+    /// The distance of a point from the nearest edge.
+    fn distance(&self, [x, y]: [f64; 2]) -> f64 {
+        let mut least = f64::INFINITY;
+        for points in &self.0 {
+            for (p, q) in points.iter().zip(points.iter().cycle().skip(1)) {
+                let (dx, dy) = (q[0] - p[0], q[1] - p[1]);
+                let square = dx * dx + dy * dy;
+                let t = if square > 0.0 { (((x - p[0]) * dx + (y - p[1]) * dy) / square).clamp(0.0, 1.0) } else { 0.0 };
+                least = least.min((p[0] + t * dx - x).hypot(p[1] + t * dy - y));
+            }
+        }
+        least
+    }
+}
+
+/// Whether a number is greater than a bound, or none at all.
+fn exceeds(value: f64, bound: f64) -> bool {
+    value.is_nan() || value > bound
+}
+
+/// What is wrong with a region; empty where nothing is.
+pub fn faults(oracle: &Oracle, question: Question, region: &Region, r: &mut Random) -> Vec<String> {
+    let mut out = Vec::new();
+    let size = oracle.size;
+    let certainly = |at: [f64; 2], inside: bool| {
+        let agrees = |verdict| match verdict {
+            Verdict::Inside => inside,
+            Verdict::Outside => !inside,
+            Verdict::Near => true,
+        };
+        agrees(oracle.verdict_at(at, question, SAMPLES, NEAR))
+            || agrees(oracle.verdict_at(at, question, MANY_SAMPLES, NEAR))
+            || oracle.is_boundary(at, question, NEAR)
+    };
+    // Loops close, and every number is one.
+    for (number, one) in region.loops.iter().enumerate() {
+        for (arc, next) in one.arcs.iter().zip(one.arcs.iter().cycle().skip(1)) {
+            let gap = (arc.end[0] - next.start[0]).hypot(arc.end[1] - next.start[1]);
+            if exceeds(gap, NEAR * size) {
+                out.push(format!("loop {number} has a gap of {gap:e} at {:?}", arc.end));
+            }
+            let ends = arc.points(2);
+            for (claimed, drawn) in [arc.start, arc.end].iter().zip([ends[0], ends[ends.len() - 1]]) {
+                let off = (claimed[0] - drawn[0]).hypot(claimed[1] - drawn[1]);
+                if exceeds(off, 10.0 * NEAR * size) {
+                    out.push(format!(
+                        "loop {number}: an arc ends {off:e} from where it says, {claimed:?} {:?}",
+                        arc.active
+                    ));
+                }
+            }
+        }
+    }
+    for arc in &region.unclosed {
+        out.push(format!("not joined to a loop: {:?} to {:?} {:?}", arc.start, arc.end, arc.active));
+    }
+    let polygons = Polygons::of(region);
+    let area = polygons.area();
+    let room = 1e-4 * region.perimeter * size.min(region.perimeter) + 1e-9 * size * size;
+    if exceeds((area - region.area).abs(), room) {
+        out.push(format!("area {} but its polygons have {area}", region.area));
+    }
+    if let (Some(bbox), false) = (region.bbox, region.loops.is_empty()) {
+        let all = || polygons.0.iter().flatten();
+        for axis in 0..2 {
+            let (low, high) =
+                all().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p[axis]), h.max(p[axis])));
+            if low < bbox[axis] - CHORD * size || high > bbox[axis + 2] + CHORD * size {
+                out.push(format!("box {bbox:?} does not hold {low} to {high}"));
+            }
+        }
+    }
+    // Both sides of every arc.
+    for arc in region.loops.iter().flat_map(|one| &one.arcs) {
+        for part in [0.21, 0.5, 0.83] {
+            let points = arc.points(POLYGON);
+            let k = (part * (POLYGON - 1) as f64) as usize;
+            let (p, along) = (points[k], [points[k + 1][0] - points[k - 1][0], points[k + 1][1] - points[k - 1][1]]);
+            let length = along[0].hypot(along[1]);
+            if length < 1e-7 * size {
+                continue;
+            }
+            for (side, inside) in [(1.0, true), (-1.0, false)] {
+                // Near enough that no other boundary lies between, mostly; where one does, a nearer point decides.
+                let wrong = [1e-5, 1e-6, 1e-7].into_iter().all(|off| {
+                    let off = side * off * size / length;
+                    !certainly([p[0] - off * along[1], p[1] + off * along[0]], inside)
+                });
+                if wrong {
+                    let side = if inside { "left" } else { "right" };
+                    out.push(format!("{side} of {p:?} is not {inside}: {:?} {:?}", arc.active, arc.curve));
+                }
+            }
+        }
+    }
+    // Points anywhere.
+    let reach = region.bbox.map_or(size, |b| 0.6 * (b[2] - b[0]).max(b[3] - b[1]));
+    let middle = region.bbox.map_or([0.0; 2], |b| [(b[0] + b[2]) / 2.0, (b[1] + b[3]) / 2.0]);
+    for _ in 0..24 {
+        let at = [middle[0] + r.between(-reach, reach), middle[1] + r.between(-reach, reach)];
+        let winding = polygons.winding(at);
+        if winding != 0 && winding != 1 && polygons.distance(at) > CHORD * size {
+            out.push(format!("{at:?} is encircled {winding} times"));
+        } else if polygons.distance(at) > CHORD * size && !certainly(at, winding == 1) {
+            out.push(format!(
+                "{at:?} is encircled {winding} times, slack {}",
+                oracle.extreme(at, question, MANY_SAMPLES, f64::INFINITY)
+            ));
+        }
+    }
+    // Lines across: where the answer changes there is boundary.
+    for _ in 0..2 {
+        let reach = 1.2 * size.max(reach);
+        let line = [0; 2].map(|_| [middle[0] + r.between(-reach, reach), middle[1] + r.between(-reach, reach)]);
+        for (at, _) in oracle.crossings(line[0], line[1], question, 40) {
+            if polygons.distance(at) > CHORD * size
+                && !touches_isolated(region, at, CHORD * size)
+                && oracle.is_boundary(at, question, NEAR)
+            {
+                out.push(format!(
+                    "no boundary near {at:?}, where the answer changes (distance {})",
+                    polygons.distance(at)
+                ));
+            }
+        }
+    }
+    for part in &region.isolated {
+        let at = match part {
+            Isolated::Point { at, .. } => *at,
+            Isolated::Curve(arc) => arc.points(3)[1],
+        };
+        if oracle.extreme(at, question, SAMPLES, f64::INFINITY) < -NEAR * size {
+            out.push(format!("isolated {at:?} does not belong to it"));
+        }
+    }
+    out
+}
+
+fn touches_isolated(region: &Region, at: [f64; 2], within: f64) -> bool {
+    region.isolated.iter().any(|part| match part {
+        Isolated::Point { at: p, .. } => (p[0] - at[0]).hypot(p[1] - at[1]) < within,
+        Isolated::Curve(arc) => arc.points(POLYGON).iter().any(|p| (p[0] - at[0]).hypot(p[1] - at[1]) < 10.0 * within),
+    })
+}
+
+/// Asks the kinds of an index range of many random manipulators.
+fn check(kinds: std::ops::Range<usize>, cases: u64) {
+    let (mut asked, mut refused, mut empty) = (0, 0, 0);
+    let mut wrong: Vec<String> = Vec::new();
+    for number in 0..cases * scale() {
+        let case = random_case(number, TROUBLES[(number / 10 % 10) as usize]);
+        let oracle = Oracle::of(&case.robot, case.modes);
+        let mut r = Random::new(131 + number);
+        for index in kinds.clone() {
+            let question = questions(&case, number)[index];
+            let kind = kind_of(question, index);
+            asked += 1;
+            let workspace = match case.robot.workspace(&kind, &modes_of(&case)) {
+                Ok(workspace) => workspace,
+                Err(WorkspaceError::ModesCross { .. }) => {
+                    refused += 1;
+                    continue;
+                }
+                Err(error) => {
+                    wrong.push(format!("{}, {kind:?}: {error}\n{}", case.kind, written(&case)));
+                    continue;
+                }
+            };
+            empty += usize::from(workspace.region.loops.is_empty());
+            let faults = faults(&oracle, question, &workspace.region, &mut r);
+            if !faults.is_empty() {
+                let faults = faults[..faults.len().min(4)].join("\n  ");
+                wrong.push(format!(
+                    "{}, {kind:?}, area {}:\n  {faults}\n{}",
+                    case.kind,
+                    workspace.region.area,
+                    written(&case)
+                ));
+            }
+        }
+    }
+    let first = wrong[..wrong.len().min(3)].join("\n\n");
+    assert!(
+        wrong.is_empty(),
+        "{} of {asked} workspaces wrong ({refused} refused, {empty} empty); the first:\n{first}",
+        wrong.len()
+    );
+    assert!(
+        4 * empty < 3 * asked && 10 * refused < asked,
+        "{empty} of {asked} empty, {refused} refused: not much of a test"
+    );
+}
+
+#[test]
+fn constant_orientation_workspaces_are_those_of_brute_force() {
+    check(0..1, 100);
+}
+
+#[test]
+fn maximal_workspaces_are_those_of_brute_force() {
+    check(1..2, 40);
+}
+
+#[test]
+fn inclusive_workspaces_are_those_of_brute_force() {
+    check(2..3, 40);
+}
+
+#[test]
+fn total_orientation_and_dextrous_workspaces_are_those_of_brute_force() {
+    check(3..5, 100);
+}
+
+/// The manipulator moved, turned and scaled.
+fn moved(robot: &Manipulator, turn: f64, shift: Vector2<f64>, scale: f64) -> Manipulator {
+    let rotation = Rotation2::new(turn);
+    let mut out = robot.clone();
+    out.reference *= scale;
+    for leg in &mut out.legs {
+        leg.base = Placement { at: rotation * leg.base.at * scale + shift, direction: rotation * leg.base.direction };
+        leg.platform.at *= scale;
+        leg.links.iter_mut().for_each(|link| link.at *= scale);
+        for (limit, kind) in leg.limits.iter_mut().zip(leg.joints) {
+            if let (Some(ends), assur::JointKind::Prismatic) = (limit, kind) {
+                *ends = ends.map(|end| end * scale);
+            }
+        }
+    }
+    out
+}
+
+#[test]
+fn moving_turning_scaling_and_relabelling_change_nothing() {
+    let mut asked = 0;
+    for number in 0..40 * scale() {
+        // Slivers and exact tangencies are decided by roundings, which moving changes.
+        let trouble = TROUBLES[(number / 10 % 10) as usize];
+        if [Trouble::Sliver, Trouble::Tangent, Trouble::Symmetric].contains(&trouble) {
+            continue;
+        }
+        let case = random_case(number, trouble);
+        for (index, question) in questions(&case, number).into_iter().enumerate() {
+            let kind = kind_of(question, index);
+            let Ok(here) = case.robot.workspace(&kind, &modes_of(&case)) else { continue };
+            let turn = 0.7;
+            let turned = match kind {
+                WorkspaceKind::Constant { phi } => WorkspaceKind::Constant { phi: phi + turn },
+                WorkspaceKind::Inclusive(range) => {
+                    WorkspaceKind::Inclusive(assur::plane::PhiRange { from: range.from + turn, ..range })
+                }
+                WorkspaceKind::Total(range) => {
+                    WorkspaceKind::Total(assur::plane::PhiRange { from: range.from + turn, ..range })
+                }
+                other => other,
+            };
+            let factor = 1e3;
+            let there = moved(&case.robot, turn, Vector2::new(30.0, -20.0), factor);
+            let there = there.workspace(&turned, &modes_of(&case)).expect("is the same question");
+            let mut swapped = case.robot.clone();
+            swapped.legs.rotate_left(1);
+            let modes = case.modes.map(|mut signs| {
+                signs.rotate_left(1);
+                signs
+            });
+            let again = Case { robot: swapped, modes, kind: String::new() };
+            let again = again.robot.workspace(&kind, &modes_of(&again)).expect("is the same question");
+            let size = Oracle::of(&case.robot, case.modes).size;
+            for (other, factor) in [(&there.region, factor), (&again.region, 1.0)] {
+                let (area, length) = (other.area / (factor * factor), other.perimeter / factor);
+                let same = (area - here.region.area).abs() <= 1e-11 * size * size
+                    && (length - here.region.perimeter).abs() <= 1e-8 * size
+                    && (other.components, other.holes) == (here.region.components, here.region.holes);
+                assert!(
+                    same,
+                    "{}, {kind:?}: area {} and {area}, length {} and {length}, pieces {:?} and {:?}\n{}",
+                    case.kind,
+                    here.region.area,
+                    here.region.perimeter,
+                    (here.region.components, here.region.holes),
+                    (other.components, other.holes),
+                    written(&case)
+                );
+                asked += 1;
+            }
+        }
+    }
+    assert!(asked > 100, "{asked}");
+}
