@@ -14,7 +14,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from .problems import RUNS, Answer, Leg, Rows, best_of, from_uv, rows
+from .problems import RUNS, SAME, Answer, Leg, Rows, Solution, best_of, from_uv, residual, rows
 
 # Monomials of a row, in the order of its coefficients.
 MONOMIALS = ["ta*u", "th*v", "u", "v", "th", "ta"]
@@ -55,11 +55,22 @@ def phc_text(equations: Rows) -> str:
     return "\n".join(["4", *lines, "th*ta - 1;"]) + "\n"
 
 
+def phc_text_natural(legs: list[Leg]) -> str:
+    """The loop equations in x, y, cos, sin as PHCpack reads them, as one would write them down first."""
+    lines = []
+    for leg in legs:
+        a, b = leg.a, leg.b
+        along = f"(x + {b.real:.17e}*c - {b.imag:.17e}*s - {a.real:.17e})^2".replace("+ -", "- ").replace("- -", "+ ")
+        across = f"(y + {b.real:.17e}*s + {b.imag:.17e}*c - {a.imag:.17e})^2".replace("+ -", "- ").replace("- -", "+ ")
+        lines.append(f"{along} + {across} - {leg.length**2:.17e};")
+    return "\n".join(["4", *lines, "c^2 + s^2 - 1;"]) + "\n"
+
+
 NUMBER = r"([-+]?\d\.\d+E[-+]\d+)"
 
 
-def phcpack_answer(triads: list[list[Leg]]) -> Answer:
-    """`phc -b`, a process for each triad; less the median time of a process that solves x^2 = 1."""
+def phcpack_answers(triads: list[list[Leg]]) -> list[Answer]:
+    """`phc -b` on two forms of the equations, a process for each triad; less the median time of a process that solves x^2 = 1."""
     phc = program("phc", "phcpack")
     with tempfile.TemporaryDirectory() as folder:
         place, result = Path(folder) / "in", Path(folder) / "out"
@@ -78,22 +89,44 @@ def phcpack_answer(triads: list[list[Leg]]) -> Answer:
         start_up = statistics.median(run("1\nx^2 - 1;\n")[0] for _ in range(20))
         version = subprocess.run([phc, "--version"], check=False, capture_output=True, text=True).stdout
         number = re.search(r"v?(\d+\.\d+\.\d+)", version)
-        out = Answer(
-            f"PHCpack {number[1] if number else ''}".strip(),
-            note=f"`phc -b` on the four rows; start-up of {1e3 * start_up:.0f} ms taken off",
-        )
-        for legs in triads:
-            seconds, text = run(phc_text(rows(legs)))
-            out.seconds.append(seconds - start_up)
-            # Repeated refinements append their lists: the last list of solutions is the answer.
-            text = text[text.rfind("THE SOLUTIONS") :]
-            found = []
-            for part in re.split(r"\nsolution \d+ :", text)[1:]:
-                values = {name: complex(float(re_), float(im)) for name, re_, im in re.findall(rf" (\w+) : +{NUMBER} +{NUMBER}", part)}
-                if {"th", "u", "v"} <= values.keys() and values["th"] != 0:
-                    found.append(from_uv(legs, values["th"], values["u"], values["v"]))
-            out.solutions.append(found)
-    return out
+        name = f"PHCpack {number[1] if number else ''}".strip()
+        taken_off = f"start-up of {1e3 * start_up:.0f} ms taken off"
+
+        def rows_text(legs: list[Leg]) -> str:
+            return phc_text(rows(legs))
+
+        def from_rows(legs: list[Leg], values: dict[str, complex]) -> Solution | None:
+            if not {"th", "u", "v"} <= values.keys() or values["th"] == 0:
+                return None
+            return from_uv(legs, values["th"], values["u"], values["v"])
+
+        def from_natural(_: list[Leg], values: dict[str, complex]) -> Solution | None:
+            if not {"x", "y", "c", "s"} <= values.keys():
+                return None
+            return values["c"] + 1j * values["s"], values["x"] + 1j * values["y"], values["x"] - 1j * values["y"]
+
+        answers = []
+        for text_of, solution_of, form in (
+            (rows_text, from_rows, "the four bilinear rows, which suit it best"),
+            (phc_text_natural, from_natural, "the loop equations in `x, y, cos, sin`"),
+        ):
+            out = Answer(name, note=f"`phc -b` on {form}; {taken_off}")
+            for legs in triads:
+                seconds, text = run(text_of(legs))
+                out.seconds.append(seconds - start_up)
+                # Repeated refinements append their lists: the last list of solutions is the answer.
+                text = text[text.rfind("THE SOLUTIONS") :]
+                found = []
+                for part in re.split(r"\nsolution \d+ :", text)[1:]:
+                    pairs = re.findall(rf" (\w+) : +{NUMBER} +{NUMBER}", part)
+                    values = {name: complex(float(real), float(imaginary)) for name, real, imaginary in pairs}
+                    solution = solution_of(legs, values)
+                    # Ends of paths to infinity are listed, too.
+                    if solution is not None and solution[0] != 0 and residual(legs, solution) < SAME:
+                        found.append(solution)
+                out.solutions.append(found)
+            answers.append(out)
+    return answers
 
 
 # ── Macaulay2 ──

@@ -12,7 +12,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from .homotopy_peers import bertini_answers, macaulay2_answers, phcpack_answer
+from .homotopy_peers import bertini_answers, macaulay2_answers, phcpack_answers
 from .msolve_peer import msolve_answer
 from .problems import Answer, Leg, Solution, is_real, planted, residual, same
 from .root_peers import flint_answer, mpsolve_answer, numpy_answer
@@ -33,7 +33,7 @@ PEERS: dict[str, Callable[[list[list[Leg]]], Answer | list[Answer]]] = {
     "flint": flint_answer,
     "macaulay2": macaulay2_answers,
     "bertini": bertini_answers,
-    "phcpack": phcpack_answer,
+    "phcpack": phcpack_answers,
     "msolve": msolve_answer,
 }
 
