@@ -1,13 +1,15 @@
 //! `forward --batch`: files of rows, block by block, with parts that a later run takes up.
 //!
 //! Each block of the input becomes a part, written under another name and renamed when whole. A part's name holds a fingerprint of all that went into it, so that a
-//! later run knows which parts are still right. When all are there they are joined, and only then the output appears.
+//! later run knows which parts are still right. They are joined as they come, in their order, while others are being solved; the output appears when all are there.
 
+use std::collections::BTreeMap;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, BufRead, BufReader, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, mpsc};
+use std::thread::JoinHandle;
 use std::time::Instant;
 
 use assur::exchange::{
@@ -229,27 +231,39 @@ impl Job {
             });
         }
         let rest = (self.model.to_toml(), self.format, env!("CARGO_PKG_VERSION"));
-        let names: Mutex<Vec<(u64, String)>> = Mutex::default();
         let taken_up: Mutex<[u64; 2]> = Mutex::default();
-        blocks.par_bridge().try_for_each(|block| {
-            let block = block?;
-            if interrupted.load(Ordering::Relaxed) {
-                return Err(Failure::About(output.display().to_string(), parts.how_to_go_on()));
-            }
-            let name = format!("{:08}-{:016x}", block.number, block.fingerprint(&rest));
-            match parts.counts(&name) {
-                Some(found) => {
-                    let mut all = taken_up.lock().expect("no thread panics");
-                    *all = [all[0] + found[0], all[1] + found[1]];
+        let mut joiner = Joiner::begin(&parts, output, self.format, self.inputs())?;
+        let (names, ready) = mpsc::channel();
+        let (solved, joined) = std::thread::scope(|scope| {
+            let joining = scope.spawn(|| -> Result<(), Failure> {
+                for (number, name) in ready {
+                    joiner.add(number, name)?;
                 }
-                None => parts.write(&name, &self.solve(&block))?,
-            }
-            names.lock().expect("no thread panics").push((block.number, name));
-            Ok(())
-        })?;
-        let mut names = names.into_inner().expect("no thread panics");
-        names.sort();
-        let rejects_file = parts.join(&names, output, self.format, self.inputs())?;
+                Ok(())
+            });
+            let solved = blocks.par_bridge().try_for_each_with(names, |names, block| {
+                let block = block?;
+                if interrupted.load(Ordering::Relaxed) {
+                    return Err(Failure::About(output.display().to_string(), parts.how_to_go_on()));
+                }
+                let name = format!("{:08}-{:016x}", block.number, block.fingerprint(&rest));
+                match parts.counts(&name) {
+                    Some(found) => {
+                        let mut all = taken_up.lock().expect("no thread panics");
+                        *all = [all[0] + found[0], all[1] + found[1]];
+                    }
+                    None => parts.write(&name, &self.solve(&block))?,
+                }
+                // Nobody listens where joining has failed, whose reason comes first below.
+                let stopped = |_| Failure::About(output.display().to_string(), "joining has stopped".to_owned());
+                names.send((block.number, name)).map_err(stopped)
+            });
+            (solved, joining.join().expect("no thread panics"))
+        });
+        joined?;
+        solved?;
+        let rejects_file = joiner.finish()?;
+        parts.remove();
         Ok(self.summary(taken_up.into_inner().expect("no thread panics"), rejects_file))
     }
 }
@@ -352,49 +366,6 @@ impl Parts {
         fs::read(&path).map_err(|error| Failure::About(path.display().to_string(), format!("cannot be read: {error}")))
     }
 
-    /// Joins the parts; the output appears last, the folder goes. Gives the name of the file of rejects, where there is one.
-    fn join(
-        &self,
-        names: &[(u64, String)],
-        output: &Path,
-        format: RowFormat,
-        inputs: usize,
-    ) -> Result<Option<String>, Failure> {
-        let (joined, rejects) = (self.folder.join(JOINED), self.folder.join(REJECTS));
-        let rejects_path = with_ending(output, ".rejects.csv");
-        self.join_rows(names, &joined, format, inputs)?;
-        let rejected = self.join_rejects(names, &rejects)?;
-        if rejected {
-            fs::rename(&rejects, &rejects_path).map_err(unwritable(&rejects_path))?;
-        } else {
-            // What an earlier batch left would be taken for this one's.
-            match fs::remove_file(&rejects_path) {
-                Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(unwritable(&rejects_path)(error)),
-                _ => {}
-            }
-        }
-        fs::rename(&joined, output).map_err(unwritable(output))?;
-        self.remove();
-        Ok(rejected.then(|| rejects_path.display().to_string()))
-    }
-
-    /// Whether there is any.
-    fn join_rejects(&self, names: &[(u64, String)], out: &Path) -> Result<bool, Failure> {
-        let mut file = BufWriter::new(File::create(out).map_err(unwritable(out))?);
-        file.write_all(b"row,reason\n").map_err(unwritable(out))?;
-        let mut any = false;
-        for (_, name) in names {
-            let content = self.read(name, "rejects")?;
-            any |= !content.is_empty();
-            file.write_all(&content).map_err(unwritable(out))?;
-        }
-        file.into_inner()
-            .map_err(|error| error.into_error())
-            .and_then(|file| file.sync_all())
-            .map_err(unwritable(out))?;
-        Ok(any)
-    }
-
     /// Removes the parts, also those of other questions, and the folder where nothing else is in it. The answer is there: what cannot be removed does no harm.
     fn remove(&self) {
         let is_part = |name: &str| {
@@ -410,19 +381,132 @@ impl Parts {
             }
         }
     }
+}
 
-    fn join_rows(&self, names: &[(u64, String)], out: &Path, format: RowFormat, inputs: usize) -> Result<(), Failure> {
-        let failed = |error: BatchWriteError| match error {
-            BatchWriteError::Io(error) => unwritable(out)(error),
-            other => Failure::About(out.display().to_string(), other.to_string()),
-        };
-        let file = BufWriter::with_capacity(1 << 20, File::create(out).map_err(unwritable(out))?);
-        let mut writer = BatchWriter::new(file, format, inputs).map_err(failed)?;
-        for (_, name) in names {
-            writer.add(self.read(name, "rows")?).map_err(failed)?;
+/// Puts parts together in their order, under another name, as they come.
+struct Joiner<'a> {
+    parts: &'a Parts,
+    output: &'a Path,
+    rows: Option<BatchWriter<BufWriter<Growing>>>,
+    /// Brings the rows to the disk while they grow.
+    syncing: Option<JoinHandle<io::Result<()>>>,
+    rejects: BufWriter<File>,
+    any_rejects: bool,
+    /// Parts that wait for an earlier one: their names alone, so that memory stays flat.
+    waiting: BTreeMap<u64, String>,
+    next: u64,
+}
+
+impl<'a> Joiner<'a> {
+    fn begin(parts: &'a Parts, output: &'a Path, format: RowFormat, inputs: usize) -> Result<Self, Failure> {
+        let (joined, rejects) = (parts.folder.join(JOINED), parts.folder.join(REJECTS));
+        let file = File::create(&joined).map_err(unwritable(&joined))?;
+        let (file, syncing) = Growing::begin(file).map_err(unwritable(&joined))?;
+        let file = BufWriter::with_capacity(1 << 20, file);
+        let rows = BatchWriter::new(file, format, inputs).map_err(|error| unwritable_rows(&joined, error))?;
+        let mut file = BufWriter::new(File::create(&rejects).map_err(unwritable(&rejects))?);
+        file.write_all(b"row,reason\n").map_err(unwritable(&rejects))?;
+        Ok(Self {
+            parts,
+            output,
+            rows: Some(rows),
+            syncing: Some(syncing),
+            rejects: file,
+            any_rejects: false,
+            waiting: BTreeMap::new(),
+            next: 0,
+        })
+    }
+
+    /// Takes a part, and appends what is next.
+    fn add(&mut self, number: u64, name: String) -> Result<(), Failure> {
+        self.waiting.insert(number, name);
+        while let Some(name) = self.waiting.remove(&self.next) {
+            self.next += 1;
+            let rows = self.parts.read(&name, "rows")?;
+            let writer = self.rows.as_mut().expect("not finished");
+            writer.add(rows).map_err(|error| unwritable_rows(&self.parts.folder.join(JOINED), error))?;
+            let rejects = self.parts.read(&name, "rejects")?;
+            self.any_rejects |= !rejects.is_empty();
+            self.rejects.write_all(&rejects).map_err(unwritable(&self.parts.folder.join(REJECTS)))?;
         }
-        writer.finish().map_err(failed)?;
-        // Only what has reached the disk may take the output's name.
-        File::open(out).and_then(|file| file.sync_all()).map_err(unwritable(out))
+        Ok(())
+    }
+
+    /// The output appears, last; gives the name of the file of rejects, where there is one.
+    fn finish(&mut self) -> Result<Option<String>, Failure> {
+        let (joined, rejects) = (self.parts.folder.join(JOINED), self.parts.folder.join(REJECTS));
+        let rejects_path = with_ending(self.output, ".rejects.csv");
+        let writer = self.rows.take().expect("finished once");
+        writer.finish().map_err(|error| unwritable_rows(&joined, error))?;
+        // Only what has reached the disk may take the output's name; an error that the other thread was told is told once.
+        let syncing = self.syncing.take().expect("finished once");
+        syncing.join().expect("no thread panics").map_err(unwritable(&joined))?;
+        File::open(&joined).and_then(|file| file.sync_all()).map_err(unwritable(&joined))?;
+        self.rejects.flush().map_err(unwritable(&rejects))?;
+        if self.any_rejects {
+            self.rejects.get_ref().sync_all().map_err(unwritable(&rejects))?;
+            fs::rename(&rejects, &rejects_path).map_err(unwritable(&rejects_path))?;
+        } else {
+            // What an earlier batch left would be taken for this one's.
+            match fs::remove_file(&rejects_path) {
+                Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(unwritable(&rejects_path)(error)),
+                _ => {}
+            }
+        }
+        fs::rename(&joined, self.output).map_err(unwritable(self.output))?;
+        Ok(self.any_rejects.then(|| rejects_path.display().to_string()))
+    }
+}
+
+impl Drop for Joiner<'_> {
+    /// What is not whole goes; the parts stay.
+    fn drop(&mut self) {
+        let _ = fs::remove_file(self.parts.folder.join(JOINED));
+        let _ = fs::remove_file(self.parts.folder.join(REJECTS));
+    }
+}
+
+fn unwritable_rows(path: &Path, error: BatchWriteError) -> Failure {
+    match error {
+        BatchWriteError::Io(error) => unwritable(path)(error),
+        other => Failure::About(path.display().to_string(), other.to_string()),
+    }
+}
+
+/// A file that is brought to the disk while it grows, by a thread of its own: at the end little is left to wait for.
+struct Growing {
+    file: File,
+    unsynced: usize,
+    /// Asks for what is written so far; full where the disk is behind, which is no reason to wait.
+    sync: mpsc::SyncSender<()>,
+}
+
+/// Bytes after which the disk is asked to take what is there: some tenths of a second of a slow one.
+const SYNC_BYTES: usize = 1 << 24;
+
+impl Growing {
+    /// The file, and the thread, which ends when the file is closed.
+    fn begin(file: File) -> io::Result<(Self, JoinHandle<io::Result<()>>)> {
+        let (sync, asked) = mpsc::sync_channel(1);
+        let same = file.try_clone()?;
+        let syncing = std::thread::spawn(move || asked.iter().try_for_each(|()| same.sync_data()));
+        Ok((Self { file, unsynced: 0, sync }, syncing))
+    }
+}
+
+impl Write for Growing {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.file.write(bytes)?;
+        self.unsynced += written;
+        if self.unsynced >= SYNC_BYTES {
+            self.unsynced = 0;
+            let _ = self.sync.try_send(());
+        }
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
     }
 }

@@ -232,11 +232,14 @@ impl InputBlock {
         for (row, line) in self.numbered() {
             fields.clear();
             fields.extend(line.split(|&byte| byte == b','));
-            out.push(row, line, || {
+            out.push(row, line, |inputs| {
                 if fields.len() != count {
                     return Err(format!("{} values, must be {count}", fields.len()));
                 }
-                columns.iter().zip(1..).map(|(&column, input)| number(fields[column], input)).collect()
+                for (&column, input) in columns.iter().zip(1..) {
+                    inputs.push(number(fields[column], input)?);
+                }
+                Ok(())
             });
         }
         out
@@ -245,25 +248,30 @@ impl InputBlock {
     fn json_rows(&self, inputs: usize) -> Rows {
         let mut out = Rows::default();
         for (row, line) in self.numbered() {
-            out.push(row, line, || json_values(line, inputs));
+            out.push(row, line, |values| {
+                values.extend(json_values(line, inputs)?);
+                Ok(())
+            });
         }
         out
     }
 }
 
 impl Rows {
-    fn push(&mut self, row: u64, line: &[u8], values: impl FnOnce() -> Result<Vec<f64>, String>) {
-        let values = if TOO_LONG.starts_with(line) {
+    /// Adds a row, whose values `read` appends, or its reject.
+    fn push(&mut self, row: u64, line: &[u8], read: impl FnOnce(&mut Vec<f64>) -> Result<(), String>) {
+        let before = self.inputs.len();
+        let result = if TOO_LONG.starts_with(line) {
             Err(format!("a line of more than {LONGEST_LINE} bytes is no row"))
         } else {
-            values()
+            read(&mut self.inputs)
         };
-        match values {
-            Ok(values) => {
-                self.numbers.push(row);
-                self.inputs.extend(values);
+        match result {
+            Ok(()) => self.numbers.push(row),
+            Err(reason) => {
+                self.inputs.truncate(before);
+                self.rejects.push(Reject { row, reason });
             }
-            Err(reason) => self.rejects.push(Reject { row, reason }),
         }
     }
 }
