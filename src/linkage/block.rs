@@ -19,6 +19,8 @@ use crate::roots::{HarmonicBlock, RootColumns, RootQueue};
 /// Triads in a block, and roots worked on together: as many as keep their numbers near the processor.
 pub(super) const BLOCK: usize = 32;
 const CHUNK: usize = 32;
+/// Loops run over a multiple of this many places: whole registers. How often they run is not known to the compiler: it would unroll them all, which takes minutes.
+const ABREAST: usize = 8;
 /// Room for all roots of a block.
 const ROOM: usize = BLOCK * MOST_MODES;
 
@@ -104,11 +106,12 @@ impl Locals {
         bound: [0.0; BLOCK],
     };
 
-    /// Takes the numbers as they are given.
+    /// Takes the numbers as they are given, and gives how many places are filled.
     #[inline(always)]
-    fn take(&mut self, triads: &[&Triad], order: [usize; 3]) {
-        for i in 0..BLOCK {
-            // The last triad fills up the block.
+    fn take(&mut self, triads: &[&Triad], order: [usize; 3]) -> usize {
+        let filled = triads.len().next_multiple_of(ABREAST).min(BLOCK);
+        for i in 0..filled {
+            // The last triad fills up the last register.
             let legs = triads[i.min(triads.len() - 1)].legs();
             for (given, leg) in self.given.iter_mut().zip(order) {
                 let (a, b, x, y, own) = match legs[leg] {
@@ -123,29 +126,31 @@ impl Locals {
                 (g0[i], g1[i], g2[i], g3[i], g4[i], g5[i], g6[i]) = (a.x, a.y, b.x, b.y, x, y, own);
             }
         }
+        filled
     }
 
     /// Sees all from the reference legs; a bit for each triad whose numbers are in range.
     #[inline(always)]
-    fn localise(&mut self, shape: Shape, order: [usize; 3]) -> u64 {
+    fn localise(&mut self, shape: Shape, order: [usize; 3], filled: usize) -> u64 {
+        let filled = filled.min(BLOCK);
         let given = &self.given;
         let [a0x, a0y, b0x, b0y, ..] = &given[0];
         let zero = [a0x, a0y, b0x, b0y];
         let mut largest = [0.0; BLOCK];
         for (given, leg) in given.iter().zip(order) {
             for j in 0..4 {
-                for i in 0..BLOCK {
+                for i in 0..filled {
                     largest[i] = larger((given[j][i] - zero[j][i]).abs(), largest[i]);
                 }
             }
             if shape.kinds[leg] == Kind::Circle || shape.distances[leg] {
-                for i in 0..BLOCK {
+                for i in 0..filled {
                     largest[i] = larger(given[6][i].abs(), largest[i]);
                 }
             }
         }
         let (mut good, mut inverse) = ([0; BLOCK], [0.0; BLOCK]);
-        for i in 0..BLOCK {
+        for i in 0..filled {
             let (unit, inside) = power_of_two(largest[i]);
             (self.unit[i], good[i], inverse[i]) = (unit, u64::from(inside), 1.0 / unit);
         }
@@ -153,17 +158,17 @@ impl Locals {
             to.kind = shape.kinds[leg];
             let to = &mut to.numbers;
             for j in 0..4 {
-                for i in 0..BLOCK {
+                for i in 0..filled {
                     to[j][i] = (given[j][i] - zero[j][i]) * inverse[i];
                 }
             }
             if shape.kinds[leg] == Kind::Circle {
-                for i in 0..BLOCK {
+                for i in 0..filled {
                     to[4][i] = given[6][i] * inverse[i];
                 }
                 continue;
             }
-            for i in 0..BLOCK {
+            for i in 0..filled {
                 let (own, inside) = power_of_two(larger(given[4][i].abs(), given[5][i].abs()));
                 good[i] &= u64::from(inside);
                 let own = 1.0 / own;
@@ -175,7 +180,7 @@ impl Locals {
             }
         }
         let mut in_range = 0;
-        for (i, good) in good.iter().enumerate() {
+        for (i, good) in good.iter().enumerate().take(filled) {
             in_range |= good << i;
         }
         in_range
@@ -183,26 +188,28 @@ impl Locals {
 
     /// The largest length of each triad: distances of base points, of platform points, leg lengths and offsets.
     #[inline(always)]
-    fn measure_sizes(&mut self) {
+    fn measure_sizes(&mut self, filled: usize) {
+        let filled = filled.min(BLOCK);
         let [mut apart, mut own] = [[0.0; BLOCK]; 2];
         for (k, leg) in self.legs.iter().enumerate() {
             for other in &self.legs[..k] {
-                for i in 0..BLOCK {
+                for i in 0..filled {
                     for at in [0, 2] {
                         apart[i] = larger((leg.point(at, i) - other.point(at, i)).norm_sqr(), apart[i]);
                     }
                 }
             }
-            each_leg!(leg, BLOCK, |i, leg| own[i] = larger(own_length(&leg), own[i]));
+            each_leg!(leg, filled, |i, leg| own[i] = larger(own_length(&leg), own[i]));
         }
-        for i in 0..BLOCK {
+        for i in 0..filled {
             self.size[i] = larger(own[i], apart[i].sqrt());
         }
     }
 
     /// `T` of each triad at eight angles, and a bound on its rounding errors.
     #[inline(always)]
-    fn evaluate(&mut self, roundings: u32) {
+    fn evaluate(&mut self, roundings: u32, filled: usize) {
+        let filled = filled.min(BLOCK);
         let Self { legs, rows, values, bound, .. } = self;
         let radius = &legs[0].numbers[4];
         let first = legs[0].kind;
@@ -211,9 +218,9 @@ impl Locals {
         for (angle, values) in values.iter_mut().enumerate() {
             let (c, s) = (COSINES[angle], SINES[angle]);
             for (leg, rows) in legs.iter().zip(rows.iter_mut()).skip(rows_from) {
-                each_leg!(leg, BLOCK, |i, leg| put_row(rows, i, &leg_row(&leg, &radius[i], &c, &s)));
+                each_leg!(leg, filled, |i, leg| put_row(rows, i, &leg_row(&leg, &radius[i], &c, &s)));
             }
-            for i in 0..BLOCK {
+            for i in 0..filled {
                 values[i] =
                     consistency_of(first, radius[i], [row_of(&rows[0], i), row_of(&rows[1], i), row_of(&rows[2], i)]);
             }
@@ -222,7 +229,7 @@ impl Locals {
         let one = Bounded::rounded(1.0);
         let mut counted = [[0; 3]; 3];
         for ((leg, rows), counted) in legs.iter().zip(rows.iter_mut()).zip(&mut counted).skip(rows_from) {
-            each_leg!(leg, BLOCK, |i, leg| {
+            each_leg!(leg, filled, |i, leg| {
                 let leg = leg.map(|&x| Bounded::rounded_times(x, roundings));
                 let Row { g, e } = leg_row(&leg, &Bounded::rounded_times(radius[i], roundings), &one, &one);
                 *counted = [g.re.roundings(), g.im.roundings(), e.roundings()];
@@ -233,7 +240,7 @@ impl Locals {
             g: Gaussian::new(Bounded::rounded_times(row.g.re, x), Bounded::rounded_times(row.g.im, y)),
             e: Bounded::rounded_times(row.e, e),
         };
-        for i in 0..BLOCK {
+        for i in 0..filled {
             let (p, q) = (sized(row_of(&rows[0], i), counted[0]), sized(row_of(&rows[1], i), counted[1]));
             let r = sized(row_of(&rows[2], i), counted[2]);
             bound[i] = consistency_of(first, Bounded::rounded_times(radius[i], roundings), [p, q, r]).error();
@@ -428,11 +435,11 @@ impl BlockSolver {
         let mut locals = Locals::EMPTY;
         let count = triads.len();
         let legs = LEG_ORDERS[shape.reference];
-        locals.take(triads, legs);
-        let in_range = locals.localise(shape, legs);
-        locals.measure_sizes();
-        locals.evaluate(roundings(shape.distances.contains(&true)));
-        harmonics.put_samples(&locals.values, order, &locals.bound);
+        let filled = locals.take(triads, legs);
+        let in_range = locals.localise(shape, legs, filled);
+        locals.measure_sizes(filled);
+        locals.evaluate(roundings(shape.distances.contains(&true)), filled);
+        harmonics.put_samples(&locals.values, order, &locals.bound, filled);
         queue.clear();
         *undecided = harmonics.isolate(count, queue) | !in_range & ((1 << count) - 1);
         *counts = [0; BLOCK];

@@ -14,6 +14,8 @@ pub(crate) struct HarmonicBlock<const B: usize> {
     in_range: [u64; B],
     forms: [[[f64; B]; FORM]; CELLS],
     opened: Opened,
+    /// How many polynomials there are.
+    filled: usize,
 }
 
 impl<const B: usize> HarmonicBlock<B> {
@@ -23,13 +25,15 @@ impl<const B: usize> HarmonicBlock<B> {
         in_range: [0; B],
         forms: [[[0.0; B]; FORM]; CELLS],
         opened: Opened::EMPTY,
+        filled: 0,
     };
 
-    /// The polynomials with these values at eight angles; see [`Harmonics::from_samples`].
+    /// The first `filled` polynomials, with these values at eight angles; see [`Harmonics::from_samples`].
     #[inline(always)]
-    pub(crate) fn put_samples(&mut self, values: &[[f64; B]; 8], order: usize, error: &[f64; B]) {
+    pub(crate) fn put_samples(&mut self, values: &[[f64; B]; 8], order: usize, error: &[f64; B], filled: usize) {
         let turns = TABLE.turns;
-        for i in 0..B {
+        self.filled = filled.min(B);
+        for i in 0..self.filled {
             let mut own = [0.0; 8];
             for k in 0..8 {
                 own[k] = values[k][i];
@@ -48,10 +52,11 @@ impl<const B: usize> HarmonicBlock<B> {
         let table = &*TABLE;
         let Self { waves, error, in_range, forms, .. } = self;
         let (waves, error, in_range) = (*waves, *error, *in_range);
+        let filled = self.filled.min(B);
         for l in 0..QUARTER {
             for j in 0..FORM {
                 let functions = table.coefficients[j];
-                for i in 0..B {
+                for i in 0..filled {
                     let (mut own, mut own_waves) = ([Lanes([0.0]); 7], [Lanes([0.0]); 7]);
                     for k in 0..7 {
                         own[k] = Lanes([functions[k].0[l]]);
@@ -69,7 +74,7 @@ impl<const B: usize> HarmonicBlock<B> {
         let [mut one, mut open, mut count_of] = [[0u64; B]; 3];
         let mut least_of = [0.0; B];
         for (which, form) in forms.iter().enumerate() {
-            for i in 0..B {
+            for i in 0..filled {
                 let mut own = [Lanes([0.0]); FORM];
                 for j in 0..FORM {
                     own[j] = Lanes([form[j][i]]);
@@ -78,7 +83,7 @@ impl<const B: usize> HarmonicBlock<B> {
                 (count_of[i], least_of[i]) = (changes, least.0[0]);
             }
             let bit = 1 << which;
-            for i in 0..B {
+            for i in 0..filled {
                 let doubt = least_of[i] <= error[i];
                 one[i] |= if (count_of[i] == 1) & !doubt { bit } else { 0 };
                 open[i] |= if (count_of[i] > 1) | doubt { bit } else { 0 };

@@ -247,7 +247,7 @@ mod tests {
             }
             let error = [1e-15; B];
             let mut block = HarmonicBlock::<B>::EMPTY;
-            block.put_samples(&values, 3, &error);
+            block.put_samples(&values, 3, &error, B);
             let mut queue = RootQueue::<{ 6 * B }>::default();
             let count = 1 + round % B;
             let undecided = block.isolate(count, &mut queue);
