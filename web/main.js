@@ -141,6 +141,7 @@ export class App {
 
   /** @param {string} title @param {string} below */
   caption(title, below) {
+    if (byId("caption").textContent === title + below) return;
     this.title = title;
     byId("caption").replaceChildren(title, html("small", {}, [below]));
     document.title = `${title} · assur`;
@@ -301,7 +302,7 @@ export class App {
 function stateOf(opened) {
   if (opened.kind === "four_bar") return { page: "four_bar", file: opened.file, place: { circuit: 0, tau: 0.8 } };
   if (opened.kind === "truss") return { page: "truss", file: opened.file };
-  return { page: "manipulator", model: opened.model, inputs: opened.inputs, mode: null, workspace: { kind: "", from: -0.5, to: 0.5 }, loci: false, pair: [0, 1] };
+  return { page: "manipulator", model: opened.model, inputs: opened.inputs, mode: null, workspace: { kind: "", from: -Math.PI / 6, to: Math.PI / 6 }, loci: false, pair: [0, 1] };
 }
 
 document.documentElement.dataset.theme = localStorage.getItem("assur-theme") ?? (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");

@@ -57,6 +57,7 @@ export class ManipulatorPage {
     /** @type {Region | null} */
     this.region = null;
     this.regionError = "";
+    this.regionErrorShown = "";
     this.provedKey = "";
     /** @type {import("./types.js").Loci | null} */
     this.loci = null;
@@ -111,10 +112,10 @@ export class ManipulatorPage {
     this.app.panels(
       panel("Actuators", [this.inputs]),
       panel("Assembly modes", [this.account, this.summary, this.list]),
+      panel("Workspace", [this.range, this.regionFacts], [this.kind]),
       panel("Platform", [this.poseNumbers, this.facts]),
       panel("Orientations: roots of the eliminant", [this.circle.element]),
       panel("Modes over two actuators", [this.plane.element], [this.pairs]),
-      panel("Workspace", [this.range, this.regionFacts], [this.kind]),
       panel("Singular positions", [html("p", { class: "quiet" }, ["Of this orientation and working mode: two assembly modes meet (line), a leg stretches or folds (dashes)."])], [this.lociButton]),
       panel("Proof", [this.proof], [button("prove", () => this.prove(), { id: "prove" })]),
       panel("Design", [button("Edit as text …", () => this.app.edit(), { id: "edit" })]),
@@ -135,9 +136,10 @@ export class ManipulatorPage {
       /** @type {Moved} */
       const answer = await this.app.connection.ask("move", { model, inputs, mode, pick, pull, workspace: wish });
       this.take(answer, mode !== null, tones);
+      if (book) this.settle();
       if (fit) this.fit();
       this.app.schedule();
-      this.app.say("");
+      this.app.say(changesLimits(pull) && answer.inputs.some((q, k) => q !== inputs[k]) ? "An actuator stood outside its new limits and has moved to their end." : "");
       this.slow.push(null);
       if (book) this.app.book();
     } catch (error) {
@@ -194,10 +196,15 @@ export class ManipulatorPage {
     this.pull(leg === undefined ? { handle, to } : { handle, leg: Number(leg), to });
   }
 
+  /** A pull has ended: if the mode has ended in it, nothing is held from here on. */
+  settle() {
+    if (this.answer && this.answer.current === null) this.anchor = { model: this.state.model, inputs: this.state.inputs, mode: null, tones: this.tones };
+  }
+
   async drop() {
     this.pulling = false;
     await this.moves.settled();
-    if (this.answer && this.answer.current === null) this.anchor = { model: this.state.model, inputs: this.state.inputs, mode: null, tones: this.tones };
+    this.settle();
     this.app.schedule();
     this.app.book();
     this.slow.push(null);
@@ -344,6 +351,12 @@ export class ManipulatorPage {
       if (document.activeElement !== slider) slider.value = String(shown);
       if (document.activeElement !== field) field.value = String(Number(shown.toPrecision(7)));
       row.querySelector("span")?.replaceChildren(`q${k + 1}  ${actuator.angle ? "turn" : "slide"}`);
+      const ends = [.../** @type {NodeListOf<HTMLInputElement>} */ (row.querySelectorAll(".ends input"))];
+      ends.forEach((end, side) => {
+        const bound = Number((side === 0 ? low : high).toPrecision(7));
+        end.placeholder = "none";
+        if (document.activeElement !== end) end.value = actuator.limited ? String(bound) : "";
+      });
     });
     const { account, modes } = answer.report;
     const cells = [...Array(account.real).fill("real"), ...Array(account.complex).fill("complex"), ...Array(Math.max(0, account.degree - account.real - account.complex)).fill("other")];
@@ -371,7 +384,14 @@ export class ManipulatorPage {
     else if (this.region) {
       const { area, perimeter, components, holes } = this.region;
       this.regionFacts.replaceChildren(facts([["area", number(area)], ["perimeter", number(perimeter)], ["pieces, holes", `${components}, ${holes}`]]));
-    } else this.regionFacts.replaceChildren(html("p", { class: "tag bad" }, [this.regionError ?? ""]));
+    } else if (this.regionError !== this.regionErrorShown || !this.regionFacts.querySelector(".bad")) {
+      // Not redrawn while it stands, so that its button can be pressed.
+      this.regionFacts.replaceChildren(html("p", { class: "tag bad" }, [this.regionError]));
+      if (answer.actuators.some((actuator) => !actuator.limited)) {
+        this.regionFacts.append(html("p", {}, [button("Limit every actuator to its slider", () => this.pull({ handle: "bound" }, true), { id: "bound" })]));
+      }
+    }
+    this.regionErrorShown = this.regionError;
     if (this.provedKey && this.provedKey !== JSON.stringify([answer.model, answer.inputs])) {
       this.proof.replaceChildren();
       this.provedKey = "";
@@ -410,9 +430,22 @@ export class ManipulatorPage {
     slider.addEventListener("input", () => this.pull({ handle: "input", number: k, value: value(slider.valueAsNumber) }));
     slider.addEventListener("change", () => this.drop());
     field.addEventListener("change", () => Number.isFinite(field.valueAsNumber) && this.pull({ handle: "input", number: k, value: value(field.valueAsNumber) }, true));
-    return html("div", { class: "actuator", title: `leg ${actuator.leg}, joint ${actuator.joint}${actuator.limited ? ", with limits" : ""}` }, [html("span", {}), slider, field, html("span", { class: "quiet" }, [actuator.angle ? "°" : ""])]);
+    const ends = ["lower", "upper"].map((end) => html("input", { type: "number", step: "any", "aria-label": `Actuator ${k + 1}, ${end} limit`, title: "Limits; empty both for none" }));
+    for (const end of ends) {
+      end.addEventListener("change", () => {
+        const range = ends.map((input) => input.valueAsNumber);
+        // One end alone says nothing yet.
+        if (range.every(Number.isFinite)) this.pull({ handle: "limits", number: k, range: range.map(value) }, true);
+        else if (ends.every((input) => input.value === "")) this.pull({ handle: "limits", number: k, range: null }, true);
+      });
+    }
+    const unit = html("span", { class: "quiet" }, [actuator.angle ? "°" : ""]);
+    return html("div", { class: "actuator", title: `leg ${actuator.leg}, joint ${actuator.joint}` }, [html("span", {}), slider, field, unit, html("div", { class: "ends" }, ["from ", ends[0], " to ", ends[1]])]);
   }
 }
+
+/** @param {object | null} pull */
+const changesLimits = (pull) => pull !== null && "handle" in pull && ["limits", "bound", "design"].includes(String(pull.handle));
 
 /** @param {Moved} answer */
 function count(answer) {

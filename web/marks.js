@@ -5,6 +5,12 @@
 /** The classes of paths, from back to front. */
 export const LAYERS = ["body", "rail", "hatch", "guide", "ground", "bar", "rod", "solid", "driven", "violated", "axis-x", "axis-y"];
 
+/** Those of a ghost: it has no ground, and no telltale colours. */
+export const GHOST_LAYERS = ["body", "guide", "bar", "solid", "violated"];
+
+/** What a ghost's layers are of. @param {Record<string, string>} d */
+export const ghostly = (d) => ({ body: d.body, guide: d.guide, bar: `${d.bar ?? ""}${d.rod ?? ""}`, solid: `${d.solid ?? ""}${d.driven ?? ""}`, violated: d.violated });
+
 const PIN = 4.4;
 const BLOCK = [9, 5.5];
 const CYLINDER = 4.2;

@@ -1,7 +1,7 @@
 // The drawing area: where it looks, what is on it, what is taken hold of.
 
-import { LAYERS, paths } from "./marks.js";
-import { svg } from "./svg.js";
+import { GHOST_LAYERS, LAYERS, ghostly, paths } from "./marks.js";
+import { set, svg } from "./svg.js";
 
 /**
  * @typedef {import("./types.js").Mark} Mark
@@ -39,6 +39,7 @@ export class Stage {
     this.held = null;
     /** @type {() => void} */
     this.redraw = () => {};
+    this.measure();
     this.listen();
   }
 
@@ -95,7 +96,6 @@ export class Stage {
 
   /** @param {Assembly[]} assemblies */
   draw(assemblies) {
-    this.measure();
     const ghosts = assemblies.filter((a) => a.ghost);
     const solid = assemblies.filter((a) => !a.ghost);
     this.fill(this.ghosts, ghosts, assemblies);
@@ -109,32 +109,35 @@ export class Stage {
     while (this.labels.children.length > texts.length) this.labels.lastChild?.remove();
     texts.forEach(({ at, text, tone }, k) => {
       const label = this.labels.children[k] ?? svg("text", { class: "label" }, this.labels);
-      label.textContent = text;
-      label.setAttribute("x", at[0].toFixed(1));
-      label.setAttribute("y", at[1].toFixed(1));
-      label.setAttribute("class", tone < 0 ? "label" : "label name");
-      label.setAttribute("data-tone", String(tone));
+      if (label.textContent !== text) label.textContent = text;
+      set(label, "x", at[0].toFixed(1));
+      set(label, "y", at[1].toFixed(1));
+      set(label, "class", tone < 0 ? "label" : "label name");
+      set(label, "data-tone", String(tone));
     });
   }
 
   /** @param {SVGGElement} parent @param {Assembly[]} shown @param {Assembly[]} all */
   fill(parent, shown, all) {
+    const ghosts = parent === this.ghosts;
+    const layers = ghosts ? GHOST_LAYERS : LAYERS;
     while (parent.children.length > shown.length) parent.lastChild?.remove();
     shown.forEach((assembly, k) => {
       let group = parent.children[k];
       if (!group) {
         group = svg("g", {}, parent);
-        for (const layer of LAYERS) svg("path", { class: layer }, group);
+        for (const layer of layers) svg("path", { class: layer }, group);
         group.addEventListener("click", () => {
           const number = Number(group.getAttribute("data-number"));
           if (group.classList.contains("ghost")) this.on.take(number);
         });
       }
-      group.setAttribute("class", assembly.ghost ? "mode ghost" : "mode held-mode");
-      group.setAttribute("data-tone", String(assembly.tone));
-      group.setAttribute("data-number", String(all.indexOf(assembly)));
-      const d = paths(assembly.marks, this.place);
-      LAYERS.forEach((layer, at) => group.children[at].setAttribute("d", d[layer] ?? ""));
+      set(group, "class", assembly.ghost ? "mode ghost" : "mode held-mode");
+      set(group, "data-tone", String(assembly.tone));
+      set(group, "data-number", String(all.indexOf(assembly)));
+      /** @type {Record<string, string | undefined>} */
+      const d = ghosts ? ghostly(paths(assembly.marks, this.place)) : paths(assembly.marks, this.place);
+      layers.forEach((layer, at) => set(group.children[at], "d", d[layer] ?? ""));
     });
   }
 
@@ -151,9 +154,9 @@ export class Stage {
     entries.forEach(([name, d], k) => {
       const path = this.back.children[k] ?? svg("path", { "fill-rule": "evenodd" }, this.back);
       const [style, tone] = name.split("@");
-      path.setAttribute("class", style);
-      path.setAttribute("data-tone", tone ?? "");
-      path.setAttribute("d", d);
+      set(path, "class", style);
+      set(path, "data-tone", tone ?? "");
+      set(path, "d", d);
     });
   }
 
@@ -163,8 +166,8 @@ export class Stage {
     points.forEach((p, k) => {
       const ring = this.over.children[k] ?? svg("circle", { class: "meeting", r: 17 }, this.over);
       const [x, y] = this.place(p);
-      ring.setAttribute("cx", x.toFixed(1));
-      ring.setAttribute("cy", y.toFixed(1));
+      set(ring, "cx", x.toFixed(1));
+      set(ring, "cy", y.toFixed(1));
     });
   }
 
@@ -190,7 +193,7 @@ export class Stage {
       }
       entry.grip = grip;
       const [x, y] = this.place(grip.at);
-      entry.element.setAttribute("transform", `translate(${x.toFixed(2)} ${y.toFixed(2)})`);
+      set(entry.element, "transform", `translate(${x.toFixed(2)} ${y.toFixed(2)})`);
     }
   }
 
@@ -256,7 +259,11 @@ export class Stage {
       this.on.pull(key, this.rounded([from[0] + way[0] * step, from[1] + way[1] * step]));
       this.on.drop(key);
     });
-    new ResizeObserver(() => this.redraw()).observe(this.root);
+    // Measured when it changes: asked for with each drawing, the browser would lay the page out twice.
+    new ResizeObserver(() => {
+      this.measure();
+      this.redraw();
+    }).observe(this.root);
   }
 
   /** To a tenth of a pixel, in as few decimals. @param {Point} p @returns {Point} */

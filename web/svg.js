@@ -30,6 +30,11 @@ export function html(name, attributes = {}, children = []) {
   return element;
 }
 
+/** Sets an attribute that differs: setting it anew, the browser would draw again. @param {Element} element @param {string} name @param {string} value */
+export function set(element, name, value) {
+  if (element.getAttribute(name) !== value) element.setAttribute(name, value);
+}
+
 /** @param {string} id @returns {any} */
 export function byId(id) {
   const element = document.getElementById(id);

@@ -5,7 +5,8 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::Vector2;
 
 use super::describe::{JointKind, Manipulator};
-use super::lock::LockError;
+use super::frame::principal_angle;
+use super::lock::{LockError, within};
 use super::trace::PlaneWindow;
 
 /// The numbers of assembly modes over a rectangle of two actuators' values.
@@ -52,6 +53,35 @@ impl Manipulator {
                 if symmetric { [0.0, width] } else { [-width, width] }
             }
         })
+    }
+
+    /// The same inputs, each outside its actuator's limits moved to the nearer end of them; what [`Manipulator::lock`] refuses for another reason stays as it is.
+    ///
+    /// ```
+    /// use assur::Manipulator;
+    /// let (mut robot, _) = Manipulator::of_family("3-RPR")?;
+    /// robot.legs[0].limits[1] = Some([8.0, 12.0]);
+    /// assert_eq!(robot.inputs_within_limits(&[6.0, 7.0, 5.0]), [8.0, 7.0, 5.0]);
+    /// # Ok::<(), assur::FamilyError>(())
+    /// ```
+    pub fn inputs_within_limits(&self, inputs: &[f64]) -> Vec<f64> {
+        let moved = |((leg, joint), &value): ((usize, usize), &f64)| {
+            let kind = self.legs[leg].joints[joint];
+            let Some([low, high]) =
+                self.legs[leg].limits[joint].filter(|&limit| value.is_finite() && !within(kind, value, limit))
+            else {
+                return value;
+            };
+            let distance = |end: f64| match kind {
+                JointKind::Prismatic => (value - end).abs(),
+                JointKind::Revolute => principal_angle(value - end).abs(),
+            };
+            if distance(low) <= distance(high) { low } else { high }
+        };
+        if inputs.len() != self.actuated_joints().count() {
+            return inputs.to_vec();
+        }
+        self.actuated_joints().zip(inputs).map(moved).collect()
     }
 
     /// A length that no useful distance exceeds: the spread of the base, and what legs and platform span.

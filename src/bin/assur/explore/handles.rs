@@ -34,6 +34,10 @@ pub(crate) enum Pull {
     Input { number: usize, value: f64 },
     /// All actuators.
     Inputs { values: Vec<f64> },
+    /// An actuator's limits; none for no limits.
+    Limits { number: usize, range: Option<[f64; 2]> },
+    /// The limits of all actuators that have none: the ranges that their sliders show.
+    Bound,
     /// The whole design, edited as a file.
     Design { model: Value },
 }
@@ -83,10 +87,23 @@ impl Pull {
                 return Ok(Wish::Change(Box::new(changed), inputs));
             }
             Self::Inputs { values } => return Ok(Wish::Change(Box::new(changed), values.clone())),
+            Self::Limits { number, range } => {
+                let actuator = model.manipulator.actuated_joints().nth(*number);
+                let (leg, joint) = actuator.ok_or_else(|| format!("actuator {} does not exist", number + 1))?;
+                legs[leg].limits[joint] = *range;
+            }
+            Self::Bound => {
+                for (number, (leg, joint)) in model.manipulator.actuated_joints().enumerate() {
+                    let limit = &mut legs[leg].limits[joint];
+                    *limit = limit.or_else(|| model.manipulator.actuator_range(number));
+                }
+            }
             Self::Design { model } => changed = read_model(model)?,
         }
         changed.manipulator.validate().map_err(|error| error.to_string())?;
-        Ok(Wish::Change(Box::new(changed), inputs.to_vec()))
+        // New limits may leave out where an actuator stands.
+        let inputs = changed.manipulator.inputs_within_limits(inputs);
+        Ok(Wish::Change(Box::new(changed), inputs))
     }
 }
 

@@ -7,7 +7,7 @@ use assur::plot::truss_marks;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use super::drawing::marks;
+use super::drawing::{Grid, marks};
 
 /// Points along each circuit that is drawn.
 const CURVE_POINTS: usize = 600;
@@ -53,12 +53,13 @@ pub(crate) fn four_bar(question: &FourBarQuestion) -> Result<Value, String> {
         now = position(&curve, place);
     }
     let joints = now.map(|(point, turn)| joints(&curve, point, turn));
-    let polygons: Vec<Vec<[f64; 2]>> =
-        curve.polygons(CURVE_POINTS).iter().map(|points| points.iter().map(|&p| p.into()).collect()).collect();
+    let grid = Grid::of(curve.size());
+    let circuits = curve.polygons(CURVE_POINTS);
+    let polygons = circuits.iter().map(|points| grid.points(points.iter().map(|&point| point.into())));
     Ok(json!({
         "file": file_of(&curve),
         "report": CouplerReport::new(&curve, None),
-        "circuits": polygons,
+        "circuits": polygons.collect::<Vec<_>>(),
         "place": { "circuit": place.circuit, "tau": place.tau },
         "pivots": curve.sides().each_ref().map(|side| <[f64; 2]>::from(pivot(side))),
         "joints": joints.map(|joints| joints.map(<[f64; 2]>::from)),
@@ -189,7 +190,7 @@ pub(crate) fn truss(question: &TrussQuestion) -> Result<Value, String> {
     Ok(json!({
         "file": file,
         "report": GroupReport::new(&truss, &answer, true),
-        "drawings": answer.real().map(|assembly| marks(&truss_marks(&truss, assembly))).collect::<Vec<_>>(),
+        "drawings": answer.real().map(|assembly| marks(&truss_marks(&truss, assembly), Grid::of(truss.size()))).collect::<Vec<_>>(),
         "current": current,
         "joints": truss.joints().map(|joint| <[f64; 2]>::from(joint.at[0])).collect::<Vec<_>>(),
         "size": truss.size(),

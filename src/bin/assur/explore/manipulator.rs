@@ -7,7 +7,7 @@ use assur::{AssemblyModes, Manipulator, PathEventKind, Tracked};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use super::drawing::marks;
+use super::drawing::{Grid, marks};
 use super::handles::{Pull, Wish, handles};
 use super::question::{model_value, read_model};
 use super::workspace::{WorkspaceQuestion, workspace};
@@ -76,6 +76,7 @@ pub(crate) fn moved(question: &MoveQuestion) -> Result<Value, String> {
         _ => None,
     };
     let pose = current.map(|number| answer.modes[number].mode.pose);
+    let grid = Grid::of(robot.characteristic_length());
     Ok(json!({
         "model": model_value(&changed),
         "family": robot.family(),
@@ -83,7 +84,7 @@ pub(crate) fn moved(question: &MoveQuestion) -> Result<Value, String> {
         "report": ForwardReport::of_manipulator(&answer),
         "came_from": came_from(robot, &answer, tracked.as_ref()),
         "ended": tracked.map_or(Vec::new(), |tracked| tracked.ends.iter().map(|end| numbers(&end.pose)).collect()),
-        "drawings": answer.modes.iter().map(|mode| marks(&mode_marks(robot, mode))).collect::<Vec<_>>(),
+        "drawings": answer.modes.iter().map(|mode| marks(&mode_marks(robot, mode), grid)).collect::<Vec<_>>(),
         "current": current,
         "event": event,
         "handles": handles(robot, pose),

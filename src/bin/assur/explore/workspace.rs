@@ -3,12 +3,19 @@
 use assur::Manipulator;
 use assur::linkage::Pose;
 use assur::plane::PhiRange;
-use assur::workspace::{BoundaryArc, Isolated, WorkspaceKind, WorkspaceModes};
+use assur::workspace::{ArcCurve, BoundaryArc, Isolated, WorkspaceKind, WorkspaceModes};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-/// Points along each arc: a full circle of them looks round on any screen.
-const ARC_POINTS: usize = 64;
+use super::drawing::Grid;
+
+/// Steps in a full circle: it looks round on any screen.
+const CIRCLE_STEPS: f64 = 180.0;
+/// Points along other curves: so many in a length of the mechanism's size, and no fewer than that in any, since short ones bend as well.
+const CURVE_POINTS: f64 = 40.0;
+const FEWEST_POINTS: usize = 14;
+/// The most along one curve.
+const MOST_POINTS: usize = 120;
 
 /// Which workspace; angles in radians.
 #[derive(Clone, Copy, Deserialize)]
@@ -44,20 +51,40 @@ pub(crate) fn workspace(robot: &Manipulator, question: WorkspaceQuestion, pose: 
         Ok(found) => found,
         Err(error) => return json!({ "error": error.to_string() }),
     };
-    let points = |arcs: &[BoundaryArc]| arcs.iter().flat_map(|arc| arc.points(ARC_POINTS)).collect::<Vec<[f64; 2]>>();
+    let size = robot.characteristic_length();
+    let grid = Grid::of(size);
+    let curve_points = |arc: &BoundaryArc| grid.points(arc.points(steps(arc, size) + 1));
+    // Each arc begins where the one before ends.
+    let outline = |arcs: &[BoundaryArc]| {
+        let without_end = |arc: &BoundaryArc| curve_points(arc).into_iter().take(steps(arc, size)).collect::<Vec<_>>();
+        arcs.iter().flat_map(without_end).collect::<Vec<[f64; 2]>>()
+    };
     let region = &found.region;
     let curve = |isolated: &Isolated| match isolated {
-        Isolated::Curve(arc) => Some(arc.points(ARC_POINTS)),
+        Isolated::Curve(arc) => Some(curve_points(arc)),
         Isolated::Point { .. } => None,
     };
-    let separating = found.separating.iter().map(|arc| arc.points(ARC_POINTS));
+    let separating = found.separating.iter().map(curve_points);
     json!({
         "kind": kind.name(),
         "area": region.area,
         "perimeter": region.perimeter,
         "components": region.components,
         "holes": region.holes,
-        "loops": region.loops.iter().map(|outline| points(&outline.arcs)).collect::<Vec<_>>(),
+        "loops": region.loops.iter().map(|one| outline(&one.arcs)).collect::<Vec<_>>(),
         "separating": separating.chain(region.isolated.iter().filter_map(curve)).collect::<Vec<_>>(),
     })
+}
+
+/// Chords that draw an arc.
+fn steps(arc: &BoundaryArc, size: f64) -> usize {
+    match &arc.curve {
+        ArcCurve::Line => 1,
+        ArcCurve::Circle { start_angle, end_angle, .. } => {
+            ((end_angle - start_angle).abs() / std::f64::consts::TAU * CIRCLE_STEPS).ceil().max(4.0) as usize
+        }
+        ArcCurve::Coupler(_) | ArcCurve::Ellipse(_) => {
+            ((arc.length() / size * CURVE_POINTS).ceil() as usize).clamp(FEWEST_POINTS, MOST_POINTS)
+        }
+    }
 }
