@@ -192,6 +192,8 @@ fn robots_are_drawn_and_checked_and_determinants_are_curves() {
     let table = folder.join("determinant.csv");
     let table = table.to_str().expect("plain");
     drawn(&["tripod", "determinant", "inclined", "--points=91", "--csv", table], "determinant.svg");
+    assert!(drawn(&["tripod", "determinant", "inclined", "--over-angle"], "angle.svg").contains("angle between two"));
+    assert!(drawn(&["hana", "capability", &hana, "--strokes=1,2,3,4"], "curve.svg").contains("half length"));
     let rows = std::fs::read_to_string(table).expect("is written");
     assert_eq!((rows.lines().count(), rows.lines().next()), (92, Some("elevation,between,det_J_1,det_J_2,det_J_3")));
     let curve = json(&["tripod", "determinant", "upright", "--pose=0,0,0,10,5,0", "--points=3", "--json"]);
@@ -241,14 +243,85 @@ fn multipterons_from_files() {
 
 #[test]
 fn models_to_start_from_are_sound() {
-    for (name, command) in
-        [("hana", "hana"), ("tripod", "tripod"), ("tripod-inclined", "tripod"), ("tripod-upright", "tripod")]
-    {
+    for (name, command) in [
+        ("hana", "hana"),
+        ("tripod", "tripod"),
+        ("tripod-5dof", "tripod"),
+        ("tripod-4dof", "tripod"),
+        ("tripod-inclined", "tripod"),
+        ("tripod-upright", "tripod"),
+    ] {
         let path = folder("new-spatial").join(format!("{name}.toml"));
         let path = path.to_str().expect("plain");
         assert!(run(&["new", name, "--output", path]).status.success());
         let inputs = if name == "hana" { "--inputs=0,0,0" } else { "--inputs=0,0,0,0,0,0" };
         assert!(run(&[command, "forward", path, inputs]).status.success());
         assert!(run(&["check", path]).status.success());
+    }
+}
+
+#[test]
+fn variants_with_fewer_degrees_of_freedom() {
+    let golden = std::fs::read_to_string(format!("{}/tests/golden/spatial.json", env!("CARGO_MANIFEST_DIR")));
+    let golden: serde_json::Value = serde_json::from_str(&golden.expect("is there")).expect("is JSON");
+    let list =
+        |value: &serde_json::Value| -> Vec<f64> { value.as_array().expect("a list").iter().map(number).collect() };
+    let joined = |values: &[f64]| values.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
+    let near = |a: &[f64], b: &[f64]| {
+        a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9 * b.abs().max(1.0))
+    };
+
+    let (five, case) = (model("tripod-5dof.toml"), &golden["tripod6"]["dof5"]);
+    let pose = format!("--pose={}", joined(&list(&case["p"])));
+    let direction = format!("--direction={}", joined(&list(&case["tool_dir"])));
+    let found = json(&["tripod", "inverse", &five, &pose, &direction, "--json"]);
+    let solutions = case["solutions"].as_array().expect("a list");
+    assert_eq!(found["solutions"].as_array().map(Vec::len), Some(solutions.len()));
+    for (k, solution) in solutions.iter().enumerate() {
+        let way = &found["solutions"][k];
+        assert!((number(&way["torsion"]) - number(&solution["s"])).abs() < 1e-9, "{way}");
+        let rho = list(&solution["rho"]);
+        assert!(near(&list(&way["inputs"]), &rho), "{way}");
+        // Five numbers, and all six, lead back.
+        let five_numbers = [0, 2, 3, 4, 5].map(|k| rho[k]);
+        for inputs in [joined(&five_numbers), joined(&rho)] {
+            let answer = json(&["tripod", "forward", &five, &format!("--inputs={inputs}"), "--json"]);
+            let wanted: Vec<f64> = (0..3).flat_map(|i| list(&solution["R"][i])).collect();
+            let modes = answer["modes"].as_array().expect("modes");
+            let rotation =
+                |mode: &serde_json::Value| (0..3).flat_map(|i| list(&mode["pose"]["rotation"][i])).collect::<Vec<_>>();
+            assert!(modes.iter().any(|mode| near(&rotation(mode), &wanted)), "{answer}");
+        }
+    }
+    assert!(text(&["tripod", "inverse", &five, &pose, &direction]).contains("as rho a"));
+    assert!(refused(&["tripod", "inverse", &five, "--pose=0,0,0,0,0,5"]).contains("leg 1: has one motor"));
+    assert!(refused(&["tripod", "forward", &five, "--inputs=1,2,3,4,5,6"]).contains("leg 1: has one motor"));
+    assert!(refused(&["tripod", "forward", &five, "--inputs=1,2,3,4"]).contains("inputs: 4 given, must be 5"));
+    assert!(refused(&["tripod", "tilt", &five, "--at=160,160,160"]).contains("6 degrees of freedom; this one has 5"));
+
+    let (four, case) = (model("tripod-4dof.toml"), &golden["tripod6"]["dof4"]);
+    let turn = number(&case["rotation_about_y"]).to_degrees();
+    let pose = format!("--pose={},0,{turn},0", joined(&list(&case["p"])));
+    let rho = list(&case["rho"]);
+    let inverse = json(&["tripod", "inverse", &four, &pose, "--json"]);
+    assert!(
+        near(&list(&inverse["inputs"]), &rho) && near(&list(&inverse["plane_angles"]), &list(&case["gamma"])),
+        "{inverse}"
+    );
+    let inputs = format!("--inputs={}", joined(&[rho[0], rho[2], rho[4], rho[5]]));
+    let answer = json(&["tripod", "forward", &four, &inputs, "--json"]);
+    let places = answer["modes"].as_array().expect("modes").iter().map(|mode| list(&mode["pose"]["position"]));
+    assert!(places.into_iter().any(|place| near(&place, &list(&case["p"]))), "{answer}");
+    let moving = text(&["tripod", "velocity", &four, &pose, "--rates=1,2,3,4"]);
+    assert!(moving.contains("platform rates for these of the sliders") && !moving.contains("none"), "{moving}");
+    assert!(
+        text(&["tripod", "velocity", &four, &pose, "--rates=0,0,0,1,0,0"])
+            .contains("the platform does not move so: leg")
+    );
+    let direction = ["tripod", "inverse", &four, "--pose=0,0,0", "--direction=1,1,1"];
+    assert!(refused(&direction).contains("5 degrees of freedom; this one has 4"));
+    for (name, freedom) in [("tripod-5dof.toml", 5), ("tripod-4dof.toml", 4)] {
+        let check = json(&["check", &model(name), "--json"]);
+        assert_eq!(check["degrees_of_freedom"].as_u64(), Some(freedom), "{check}");
     }
 }

@@ -352,6 +352,7 @@ fn areas_are_those_of_integration() {
     .map(|region| region.perimeter);
     assert!((perimeters[0] - 31.7521).abs() < 5e-5 && (perimeters[1] - 32.7980).abs() < 5e-5, "{perimeters:?}");
     let level = integrated(&robot, 0, 0.0);
+    // Midpoints over 4000 columns: the error is at most a width, 30/4000, times the jump of a column where the region ends, which is 0 at its corners.
     assert!((level - 43.453_703).abs() < 1e-2, "{level}");
     let any = integrated(&robot, 90, std::f64::consts::FRAC_PI_2);
     assert!((any - 44.244_826).abs() < 1e-2, "{any}");
@@ -359,6 +360,8 @@ fn areas_are_those_of_integration() {
 
 /// Whether a place is reached in a mode by some orientation of a range, by inverse kinematics on a fine scan alone: `None` where the scan is too close to call.
 fn scanned(robot: &Hana, mode: HanaMode, [y, z]: [f64; 2], [from, to]: [f64; 2]) -> Option<bool> {
+    // Half a step is at most 1e-3. A slider's height changes by at most r (1 + (R + r)/N) for each radian, below 50 unless its link is within a percent of level (r < 5, R < 6,
+    // N > 1): what is over 0.05 at the best step, or under -0.05, is not decided by what lies between steps. Places nearer than that are left out.
     let steps = 3000;
     let slack = |phi: f64| {
         let (r, base) = (robot.platform_radius, robot.base_radius);
@@ -524,4 +527,68 @@ fn tilting_ends_where_a_scan_says() {
             assert!(singular || !inside(end + end.signum() * 1e-9), "{robot:?} {at:?} {found:?}");
         }
     }
+}
+
+#[test]
+fn no_scanned_place_tilts_farther_than_the_supremum() {
+    const SIDE: u32 = 60;
+    let (mut random, mut tried, mut unequal) = (Random::new(77), 0, 0);
+    while tried < 60 {
+        let mut ends = || [-random.between(0.5, 4.0), random.between(0.5, 4.0)];
+        let (one, two, three) = (ends(), ends(), ends());
+        let radii = [random.between(1.0, 4.0), random.between(5.0, 12.0)];
+        let links = [random.between(10.0, 16.0), random.between(10.0, 16.0)];
+        let two = if tried % 3 == 0 { one } else { two };
+        let robot = Hana::new(radii[0], radii[1], links[0], links[1], [one, two, three]).expect("is sound");
+        let Some(best) = robot.capability_supremum(HanaMode::ABOVE).expect("is covered") else { continue };
+        let Some([low_y, low_z, high_y, high_z]) = robot.workspace(0.0, HanaMode::ABOVE).expect("finite").bbox else {
+            panic!("a supremum over nothing: {robot:?}")
+        };
+        tried += 1;
+        unequal += usize::from(one != two);
+        let place = |k: u32, n: u32| {
+            let part = |k: u32, low: f64, high: f64| low + (high - low) * f64::from(k) / f64::from(SIDE);
+            [part(k, low_y, high_y), part(n, low_z, high_z)]
+        };
+        let zeta = |at: [f64; 2]| robot.capability(at, HanaMode::ABOVE).expect("finite").map_or(0.0, |c| c.zeta);
+        let scanned = (0..=SIDE).flat_map(|k| (0..=SIDE).map(move |n| (k, n))).map(|(k, n)| zeta(place(k, n)));
+        let most = scanned.fold(0.0, f64::max);
+        assert!(best.zeta >= most - 1e-9, "{robot:?} {best:?} {most}");
+        // It is had there, or approached; on an edge of the workspace rounding decides which side is in.
+        let aside = if best.attained { 1e-9 } else { 1e-6 };
+        let near = [0.0, aside, -aside].map(|d| zeta([best.at[0], best.at[1] + d])).into_iter().fold(0.0, f64::max);
+        // At a jump the angle can leave like the root of the distance.
+        assert!(near >= best.zeta - 10.0 * f64::sqrt(aside), "{robot:?} {best:?} {near}");
+    }
+    assert!(unequal > 30, "{unequal}");
+}
+
+#[test]
+fn what_unequal_strokes_have_in_common_counts() {
+    let with = |one: [f64; 2], two: [f64; 2]| {
+        let robot = Hana { strokes: [one, two, [-3.0, 3.0]], ..Hana::example() };
+        robot.capability_supremum(HanaMode::ABOVE).expect("is covered")
+    };
+    let common = with([-3.0, 3.0], [-3.0, 3.0]);
+    assert_eq!(with([-3.0, 4.0], [-5.0, 3.0]), common);
+    assert_eq!(with([-5.0, 3.0], [-3.0, 4.0]), common);
+    assert_eq!(with([1.0, 2.0], [-2.0, -1.0]), None);
+}
+
+#[test]
+fn nothing_tilts_where_a_slider_is_at_its_end() {
+    // On the circles of sliders 1 and 2, level: printed as (ii). Leg 3 is given the room it needs.
+    let robot = Hana { strokes: [[-3.0, 3.0], [-3.0, 3.0], [-60.0, 60.0]], ..Hana::example() };
+    let mut inside = 0;
+    for k in -100..=50 {
+        let y = f64::from(k) * 0.05;
+        for end in [-3.0, 3.0] {
+            let z = end - (144.0 - y * y).sqrt();
+            if let Some(found) = robot.capability([y, z], HanaMode::ABOVE).expect("finite") {
+                inside += 1;
+                assert!(found.zeta < 1e-6, "{y} {z} {found:?}");
+            }
+        }
+    }
+    assert!(inside > 100, "{inside}");
 }

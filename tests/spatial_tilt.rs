@@ -2,8 +2,10 @@
 
 mod random;
 
+use std::f64::consts::TAU;
+
 use assur::nalgebra::Vector3;
-use assur::{Tilt, Tripod};
+use assur::{Tilt, TiltLimit, Tripod, TripodLeg, TripodPose};
 use random::Random;
 use serde_json::Value;
 
@@ -32,6 +34,63 @@ fn golden_tilts() {
         let boast = Tilt { angle: tilt.angle + 2e-3, ..tilt };
         assert_eq!(robot.tilt_bound(&tip, &boast, 1e-3).expect("finite"), None);
     }
+}
+
+/// Robots of any geometry: home in the middle of the strokes.
+fn any_robot(random: &mut Random) -> Option<(Tripod, Vector3<f64>)> {
+    let mut vector = |size: f64| Vector3::from_fn(|_, _| random.between(-size, size));
+    let legs = std::array::from_fn(|_| {
+        let u = vector(1.0);
+        let v = vector(1.0);
+        let da = vector(3.0);
+        TripodLeg { u, w: u.cross(&vector(1.0)), v, c: vector(0.5), da, db: da + vector(1.5) }
+    });
+    let robot = Tripod::new(legs).ok()?;
+    let (tool, place, tool_axis) = (vector(0.5), vector(1.0), vector(1.0).normalize());
+    let home = TripodPose::new(place - tool, Vector3::zeros());
+    let inputs = robot.inverse(&home).ok()?;
+    // Near a singularity of type 1 the sliders are far away.
+    if inputs.iter().any(|x| x.abs() > 20.0) {
+        return None;
+    }
+    let strokes = inputs.map(|x| [x - random.between(0.1, 1.5), x + random.between(0.1, 1.5)]);
+    let room = robot.plane_angles(&home).ok()?.iter().fold(0.0, |most: f64, angle| most.max(angle.abs()));
+    let plane_angle_limit = (random.between(0.0, 1.0) < 0.5).then(|| room + random.between(0.1, 0.8));
+    let strokes = (random.between(0.0, 1.0) < 0.6).then_some(strokes);
+    Some((Tripod { tool, tool_axis, strokes, plane_angle_limit, ..robot }, place))
+}
+
+#[test]
+fn no_scanned_azimuth_is_worse_whatever_the_robot() {
+    const AZIMUTHS: u32 = 7200;
+    let (mut random, mut tried, mut strokes, mut planes) = (Random::new(31), 0, 0, 0);
+    while tried < 150 {
+        let Some((robot, place)) = any_robot(&mut random) else { continue };
+        let along = |azimuth: f64| robot.tilt_along(&place, azimuth).expect("finite").expect("home is inside").0;
+        let tilt = robot.tilt(&place).expect("finite").expect("home is inside");
+        tried += 1;
+        match tilt.limit {
+            TiltLimit::Stroke { .. } => strokes += 1,
+            TiltLimit::PlaneAngle { .. } | TiltLimit::AlongRail { .. } => planes += 1,
+            TiltLimit::HalfTurn => {}
+        }
+        let scanned = (0..AZIMUTHS).map(|k| along(f64::from(k) * TAU / f64::from(AZIMUTHS)));
+        let least = scanned.fold(f64::INFINITY, f64::min);
+        assert!(tilt.angle <= least + 1e-12, "{robot:?} {place} {tilt:?} {least}");
+        // The scan is within half a step of the worst azimuth, where the angle is stationary.
+        assert!(tilt.angle >= least - 1e-3, "{robot:?} {place} {tilt:?} {least}");
+        assert!((along(tilt.azimuth) - tilt.angle).abs() < 1e-12);
+        // A valley: a thousandth of a degree away on either side it is no lower, and hardly higher.
+        for aside in [-1.7e-5, 1.7e-5] {
+            let rise = along(tilt.azimuth + aside) - tilt.angle;
+            assert!((-1e-12..1e-6).contains(&rise), "{robot:?} {place} {tilt:?} {rise:e}");
+        }
+        let bound = robot.tilt_bound(&place, &tilt, 1e-6).expect("finite");
+        assert_eq!(bound, Some((tilt.angle - 1e-6).max(0.0)), "{robot:?} {place} {tilt:?}");
+        let boast = Tilt { angle: tilt.angle + 2e-6, ..tilt };
+        assert_eq!(robot.tilt_bound(&place, &boast, 1e-6).expect("finite"), None, "{robot:?} {place} {tilt:?}");
+    }
+    assert!(strokes > 30 && planes > 30, "{strokes} {planes}");
 }
 
 #[test]

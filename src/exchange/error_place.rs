@@ -266,7 +266,8 @@ impl From<&TripodError> for ErrorPlace {
             E::OneRail { leg } => Self::leg(*leg).and_field("u"),
             E::ParallelAxes { leg } | E::ParallelRail { leg } => Self::leg(*leg).and_field("pose"),
             E::NoRotation { off } => Self::field("rotation").and_value(FoundValue::Number(*off)),
-            E::Singular { .. } => Self::field("pose"),
+            E::OneMotor { leg, apart } => Self::leg(*leg).and_value(FoundValue::Number(*apart)),
+            E::Singular { .. } | E::DegreesOfFreedom { .. } => Self::field("pose"),
         }
     }
 }
@@ -292,7 +293,6 @@ impl From<&HanaCapabilityError> for ErrorPlace {
         match error {
             E::Question(error) => error.into(),
             E::OppositeSides { mode } => Self::field("mode").and_value(FoundValue::Text(mode.to_string())),
-            E::DifferentStrokes => Self::field("strokes"),
         }
     }
 }

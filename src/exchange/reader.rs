@@ -48,7 +48,7 @@ impl<'a> Field<'a> {
         FileError::Field { file: self.file.to_owned(), place, problem }
     }
 
-    fn not(&self, expected: impl Into<String>) -> FileError {
+    pub(super) fn not(&self, expected: impl Into<String>) -> FileError {
         self.error(FieldProblem::Kind { expected: expected.into(), found: self.tree.to_string() })
     }
 

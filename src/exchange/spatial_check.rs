@@ -109,9 +109,14 @@ impl AnyCheck {
             return Ok(Self::Spatial(SpatialCheckReport {
                 schema: "assur/check/1",
                 name: robot.name.clone(),
-                family: "three-legged 6-DOF robot",
+                family: match robot.degrees_of_freedom() {
+                    6 => "three-legged 6-DOF robot",
+                    5 => "three-legged robot, 5-DOF variant",
+                    4 => "three-legged robot, 4-DOF variant",
+                    _ => "three-legged robot, 3-DOF variant",
+                },
                 angle_unit: angle_unit.name(),
-                degrees_of_freedom: 6,
+                degrees_of_freedom: robot.degrees_of_freedom(),
                 working_modes: 1,
                 degree_bound: 8,
                 numbers: vec![

@@ -93,10 +93,17 @@ impl TripodFile {
         let angle_unit = angle_unit(&root)?;
         let fields = root.need("legs", "a list of three legs")?;
         let _: [Field; 3] = fields.array("a list of three legs")?;
-        let mut legs = Vec::new();
-        for field in fields.legs()? {
-            let table = field.table(&["u", "w", "v", "c", "Da", "Db"])?;
+        let (mut legs, mut one_motor) = (Vec::new(), [false; 3]);
+        for (k, field) in fields.legs()?.into_iter().enumerate() {
+            let table = field.table(&["u", "w", "v", "c", "Da", "Db", "motors"])?;
             let vector = |key: &str| Ok(Vector3::from(table.need(key, "three numbers")?.triple()?));
+            if let Some(field) = table.get("motors") {
+                let motors = field.number()?;
+                one_motor[k] = motors == 1.0;
+                if !one_motor[k] && motors != 2.0 {
+                    return Err(field.not("1 or 2"));
+                }
+            }
             let c = table.get("c").map_or(Ok([0.0; 3]), |field| field.triple())?;
             legs.push(TripodLeg {
                 u: vector("u")?,
@@ -110,6 +117,7 @@ impl TripodFile {
         let legs: [TripodLeg; 3] = legs.try_into().expect("three legs were counted");
         let mut robot = Tripod::new(legs).map_err(|error| unsound(file, error))?;
         robot.name = name(&root)?;
+        robot.one_motor = one_motor;
         robot.strokes = root.get("strokes").map(|field| field.ranges()).transpose()?;
         if let Some(field) = root.get("tool") {
             robot.tool = field.triple()?.into();

@@ -7,8 +7,8 @@ use crate::solve::Account;
 use crate::spatial::{
     ArcRegion, Capability, CapabilityMap, CapabilityStop, CapabilitySupremum, Counted, DeterminantPoint,
     HanaAssemblies, HanaPose, HanaVelocity, HanaViolation, HanaWays, MixedReach, MixedSingularity, SpatialError, Tilt,
-    TiltLimit, TripodAssemblies, TripodAssembly, TripodDesign, TripodError, TripodPose, TripodReach, TripodVelocity,
-    WorkspaceArc, WorkspaceCurve,
+    TiltLimit, TripodAssemblies, TripodAssembly, TripodDesign, TripodError, TripodPointing, TripodPose, TripodReach,
+    TripodVelocity, WorkspaceArc, WorkspaceCurve,
 };
 
 pub(super) fn text(document: &Value) -> String {
@@ -217,6 +217,23 @@ pub fn tripod_inverse_json(
     text(&json!({
         "schema": "assur/tripod-inverse/1", "pose": tripod_pose(pose), "inputs": inputs, "plane_angles": angles,
         "violations": tripod_reach(violations),
+    }))
+}
+
+/// The poses that point a tool in a direction.
+pub fn tripod_pointing_json(position: &Vector3<f64>, direction: &Vector3<f64>, found: &[TripodPointing]) -> String {
+    let ways: Vec<Value> = found
+        .iter()
+        .map(|way| {
+            json!({
+                "torsion": way.torsion, "pose": tripod_pose(&way.pose), "inputs": way.inputs,
+                "plane_angles": way.plane_angles, "violations": tripod_reach(&way.violations),
+            })
+        })
+        .collect();
+    text(&json!({
+        "schema": "assur/tripod-pointing/1", "position": position.as_slice(), "direction": direction.as_slice(),
+        "solutions": ways,
     }))
 }
 

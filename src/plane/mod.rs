@@ -5,8 +5,10 @@
 
 mod angles;
 mod carrier;
+mod quadrature;
 mod sector;
 
 pub use angles::{AngleSet, PhiRange, principal};
 pub use carrier::{Carrier, Meeting};
+pub(crate) use quadrature::gauss;
 pub use sector::{Sector, conjugate, direction, product};

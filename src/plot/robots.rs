@@ -24,6 +24,8 @@ const GAP: f64 = 18.0;
 const CAPTION: f64 = 26.0;
 const HEADER: f64 = 66.0;
 const MARGIN: f64 = 22.0;
+/// Width that a letter of the title takes on average.
+const TITLE_LETTER: f64 = 10.5;
 /// Panels side by side.
 const ACROSS: usize = 4;
 /// From where the robot is seen: an azimuth and an elevation, in radians.
@@ -167,7 +169,7 @@ fn sheet(title: &str, subtitle: &str, scenes: Vec<(&str, Vec<Mark>)>) -> String 
     let scale = (PANEL - 2.0 * MARGIN) / if extent > 0.0 { extent } else { 1.0 };
     let columns = scenes.len().clamp(1, ACROSS);
     let rows = scenes.len().div_ceil(ACROSS).max(1);
-    let width = GAP + columns as f64 * (PANEL + GAP);
+    let width = (GAP + columns as f64 * (PANEL + GAP)).max(2.0 * GAP + TITLE_LETTER * title.chars().count() as f64);
     let height = HEADER + rows as f64 * (PANEL + CAPTION + GAP);
     let mut document = Document::new()
         .set("width", width)

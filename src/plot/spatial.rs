@@ -105,6 +105,8 @@ fn scale(legend: Group, x: f64, y: f64, name: &str, highest: f64) -> Group {
 /// Side of a section's picture, and the room around it, in pixels.
 const SECTION: f64 = 190.0;
 const ROOM: f64 = 34.0;
+/// Left of the first section, for the axis's name and its ends.
+const LEFT: f64 = 58.0;
 /// Sections side by side.
 const ACROSS: usize = 4;
 
@@ -119,7 +121,8 @@ pub fn draw_tilt_sections(
     let highest = sections.iter().flat_map(|(_, values)| values).flatten().copied().fold(0.0, f64::max);
     let rows = sections.len().div_ceil(ACROSS);
     let columns = sections.len().clamp(1, ACROSS);
-    let (width, height) = (columns as f64 * (SECTION + ROOM) + 170.0, 80.0 + rows as f64 * (SECTION + ROOM + 14.0));
+    let (width, height) =
+        (LEFT + columns as f64 * (SECTION + ROOM) + 130.0, 110.0 + rows as f64 * (SECTION + ROOM + 14.0));
     let mut document = Document::new()
         .set("width", width)
         .set("height", height)
@@ -129,13 +132,7 @@ pub fn draw_tilt_sections(
         .add(label(if title.is_empty() { "Largest tilt" } else { title }, 20.0, 28.0, 18.0).set("font-weight", "bold"))
         .add(
             label(
-                &format!(
-                    "largest tilt for every azimuth  ·  x from {} to {}, y from {} to {}; white: home out of limits",
-                    number(low[0]),
-                    number(high[0]),
-                    number(low[1]),
-                    number(high[1])
-                ),
+                "largest tilt that every azimuth allows, over sections  ·  white: home out of limits",
                 20.0,
                 50.0,
                 12.5,
@@ -144,7 +141,7 @@ pub fn draw_tilt_sections(
         );
     let cell = SECTION / cells.max(1) as f64;
     for (k, (z, values)) in sections.iter().enumerate() {
-        let left = 20.0 + (k % ACROSS) as f64 * (SECTION + ROOM);
+        let left = LEFT + (k % ACROSS) as f64 * (SECTION + ROOM);
         let top = 88.0 + (k / ACROSS) as f64 * (SECTION + ROOM + 14.0);
         let mut group = Group::new();
         for (index, value) in values.iter().enumerate() {
@@ -161,6 +158,20 @@ pub fn draw_tilt_sections(
             );
         }
         let frame = Rectangle::new().set("x", left).set("y", top).set("width", SECTION).set("height", SECTION);
+        let end = |value: f64, x: f64, y: f64, anchor: &'static str| {
+            label(&number(value), x, y, 10.0).set("text-anchor", anchor).set("fill", QUIET)
+        };
+        if k % ACROSS == 0 {
+            let names = [end(low[1], left - 4.0, top + SECTION, "end"), end(high[1], left - 4.0, top + 9.0, "end")];
+            document = names.into_iter().fold(document, Document::add);
+            document = document.add(label("y", left - 14.0, top + 0.5 * SECTION, 12.0).set("font-style", "italic"));
+        }
+        if k + ACROSS >= sections.len() {
+            let below = top + SECTION + 13.0;
+            let names = [end(low[0], left, below, "start"), end(high[0], left + SECTION, below, "end")];
+            document = names.into_iter().fold(document, Document::add);
+            document = document.add(label("x", left + 0.5 * SECTION, below, 12.0).set("font-style", "italic"));
+        }
         document = document.add(group).add(frame.set("fill", "none").set("stroke", INK)).add(label(
             &format!("z = {}", number(*z)),
             left,
@@ -168,6 +179,6 @@ pub fn draw_tilt_sections(
             12.0,
         ));
     }
-    let legend = scale(Group::new(), 20.0 + columns as f64 * (SECTION + ROOM), 100.0, "largest tilt", highest);
+    let legend = scale(Group::new(), LEFT + columns as f64 * (SECTION + ROOM), 100.0, "largest tilt", highest);
     document.add(legend).to_string()
 }

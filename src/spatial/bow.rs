@@ -11,8 +11,11 @@
 //! in `l`, one of them and a circle of leg 3 at roots of one of degree 8. Both are complemented by a search for changes of sign, so that a root that the
 //! companion matrix blurs is not lost.
 
+use nalgebra::Vector2;
+
 use super::region::ArcCircle;
 use crate::algebra::{Ring, UPoly};
+use crate::plane::{Carrier, Meeting, gauss};
 use crate::roots::companion_roots_real;
 
 /// A curve other than a circle or a line: `(z - height)² = q(l)`, `l = sqrt(link² - y²)`, with `q` a product of two linear factors.
@@ -63,9 +66,7 @@ const MET: f64 = 1e-7;
 const SAMPLES: usize = 24;
 const SECANTS: usize = 12;
 const HALVINGS: usize = 60;
-/// Nodes of a Gauss rule on half a cell; the integrands are smooth in the angle that maps a cell, even where a curve is upright at its end.
-const NODES: usize = 24;
-/// Cells are halved for quadrature at most so often.
+/// Cells are halved for quadrature at most so often; the integrands are smooth in the angle that maps a cell, even where a curve is upright at its end.
 const DEPTH: u32 = 12;
 /// Where two halves differ from the whole by less than this, over the size, the halves are taken.
 const SETTLED: f64 = 1e-14;
@@ -171,11 +172,9 @@ impl Bow {
     /// A Gauss rule in the angle `t` of `y = middle + half sin t`.
     fn by_nodes(&self, [a, b]: [f64; 2], [from, to]: [f64; 2]) -> [f64; 4] {
         let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
-        let (center, reach) = (0.5 * (from + to), 0.5 * (to - from));
         let mut sums = [0.0; 4];
-        for (node, weight) in gauss_nodes() {
-            let angle = center + reach * node;
-            let (y, dy) = (middle + half * angle.sin(), half * angle.cos() * weight * reach);
+        for (angle, weight) in gauss(from, to) {
+            let (y, dy) = (middle + half * angle.sin(), half * angle.cos() * weight);
             let z = self.at(y);
             let slope = self.slope(y);
             let length = if slope.is_finite() { (1.0 + slope * slope).sqrt() } else { 1.0 };
@@ -192,23 +191,18 @@ impl Bow {
         if low > high || self.shape == other.shape {
             return Vec::new();
         }
+        if let (Some(a), Some(b)) = (self.shape.carrier(), other.shape.carrier()) {
+            // Circles that touch do so to rounding.
+            return match a.meet(&b, super::region::TOUCH * size) {
+                Meeting::Same => Vec::new(),
+                Meeting::Points(points) => points.iter().map(|point| point.x).collect(),
+            };
+        }
         let places = match (self.shape, other.shape) {
-            (Shape::Circle { center, radius }, Shape::Circle { center: b, radius: s }) => {
-                return circles_meet((center, radius), (b, s));
-            }
-            (Shape::Line { .. }, Shape::Line { .. }) => return Vec::new(),
-            (Shape::Line { z }, Shape::Circle { center, radius })
-            | (Shape::Circle { center, radius }, Shape::Line { z }) => {
-                let rise = z - center[1];
-                let square = (radius - rise) * (radius + rise);
-                if square < 0.0 {
-                    return Vec::new();
-                }
-                return [1.0, -1.0].map(|side| center[0] + side * square.sqrt()).to_vec();
-            }
             (Shape::Spiric(curve) | Shape::Level(curve), rest) | (rest, Shape::Spiric(curve) | Shape::Level(curve)) => {
                 curve.meets(&rest)
             }
+            _ => return Vec::new(),
         };
         let apart = |y: f64| self.at(y) - other.at(y);
         let mut found: Vec<f64> =
@@ -253,6 +247,17 @@ impl Bow {
             }
         }
         places
+    }
+}
+
+impl Shape {
+    /// The whole circle or line.
+    fn carrier(&self) -> Option<Carrier> {
+        match *self {
+            Self::Circle { center, radius } => Some(Carrier::Circle { center: center.into(), radius }),
+            Self::Line { z } => Some(Carrier::Line { point: Vector2::new(0.0, z), direction: Vector2::x() }),
+            Self::Spiric(_) | Self::Level(_) => None,
+        }
     }
 }
 
@@ -341,47 +346,4 @@ fn nearest_root(apart: impl Fn(f64) -> f64, start: f64, [low, high]: [f64; 2], s
         (other, known, x, value) = (x, value, next, there);
     }
     (value.abs() <= MET * size).then_some(x)
-}
-
-/// Where two circles meet, as values of `y`.
-fn circles_meet((a, r): ([f64; 2], f64), (b, s): ([f64; 2], f64)) -> Vec<f64> {
-    let d = [b[0] - a[0], b[1] - a[1]];
-    let square = d[0] * d[0] + d[1] * d[1];
-    if square == 0.0 {
-        return Vec::new();
-    }
-    let along = 0.5 * (square + (r - s) * (r + s)) / square;
-    let across = r * r / square - along * along;
-    // Circles that touch do so to rounding.
-    if across < -super::region::TOUCH {
-        return Vec::new();
-    }
-    let across = across.max(0.0).sqrt();
-    [1.0, -1.0].map(|side| a[0] + along * d[0] - side * across * d[1]).to_vec()
-}
-
-/// Nodes and weights of the Gauss-Legendre rule on `[-1, 1]`, by Newton's method on the Legendre polynomial.
-fn gauss_nodes() -> &'static [(f64, f64); NODES] {
-    static RULE: std::sync::OnceLock<[(f64, f64); NODES]> = std::sync::OnceLock::new();
-    RULE.get_or_init(|| {
-        let n = NODES as f64;
-        std::array::from_fn(|k| {
-            let mut x = (std::f64::consts::PI * (k as f64 + 0.75) / (n + 0.5)).cos();
-            let legendre = |x: f64| {
-                let (mut before, mut here) = (1.0, x);
-                for j in 2..=NODES {
-                    let j = j as f64;
-                    (before, here) = (here, ((2.0 * j - 1.0) * x * here - (j - 1.0) * before) / j);
-                }
-                (here, n * (x * here - before) / (x * x - 1.0))
-            };
-            // The start is within 1e-3 of the node; the error squares each time.
-            for _ in 0..5 {
-                let (value, slope) = legendre(x);
-                x -= value / slope;
-            }
-            let (_, slope) = legendre(x);
-            (x, 2.0 / ((1.0 - x * x) * slope * slope))
-        })
-    })
 }

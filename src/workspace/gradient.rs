@@ -19,7 +19,7 @@ use super::reach::Reach;
 use super::region::{Workspace, WorkspaceKind};
 use crate::linkage::Dyad;
 use crate::manipulator::{DesignNumber, Manipulator};
-use crate::plane::{direction, product};
+use crate::plane::{direction, gauss, product};
 
 /// Step of a design number for the derivative of a limit's own closed form, over the mechanism's size (angles: radians). The rule of four points is exact up to
 /// the fifth derivative times the step's fourth power, some 1e-13; roundings over the step are as small.
@@ -35,15 +35,6 @@ const PARTS: usize = 2;
 const AGREE: f64 = 1e-10;
 /// A part is halved at most so often: where the speed has a kink, that is a thousandth of it.
 const DEPTH: usize = 6;
-
-/// Gauss-Legendre nodes and weights of order 10 on [-1, 1], positive half.
-const NODES: [[f64; 2]; 5] = [
-    [0.148_874_338_981_631_2, 0.295_524_224_714_752_9],
-    [0.433_395_394_129_247_2, 0.269_266_719_309_996_4],
-    [0.679_409_568_299_024_4, 0.219_086_362_515_982],
-    [0.865_063_366_688_984_5, 0.149_451_349_150_580_6],
-    [0.973_906_528_517_171_7, 0.066_671_344_308_688_1],
-];
 
 impl Manipulator {
     /// The derivatives of a workspace's area by design numbers, exactly: integrals over its boundary, not differences of areas.
@@ -201,16 +192,13 @@ impl Held<'_> {
     }
 
     fn gauss(&self, from: f64, to: f64) -> Sums {
-        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
         let mut out = Sums { values: vec![0.0; self.nearby.len()], largest: 0.0 };
-        for [node, weight] in NODES {
-            for x in [node, -node] {
-                let spot = self.spot(middle + half * x);
-                let length = spot.along.norm() * weight * half;
-                for (sum, speed) in out.values.iter_mut().zip(self.speeds(&spot)) {
-                    *sum += speed * length;
-                    out.largest += speed.abs() * length;
-                }
+        for (part, weight) in gauss(from, to) {
+            let spot = self.spot(part);
+            let length = spot.along.norm() * weight;
+            for (sum, speed) in out.values.iter_mut().zip(self.speeds(&spot)) {
+                *sum += speed * length;
+                out.largest += speed.abs() * length;
             }
         }
         out

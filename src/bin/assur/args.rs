@@ -33,7 +33,7 @@ pub(crate) enum Command {
     #[command(
         after_help = "Families: 3-RPR, 3-RRR, 3-PRR, 3-RRP, 3-PRP, 3-PPR, 3-RPP; with the actuated joint marked, \
         3-_R_RR; three different legs, R_P_R,_P_RR,_R_RR; \
-        the spatial robots hana, tripod, tripod-inclined, tripod-upright, tripteron, quadrupteron, hexapteron.\nExample:  assur new 3-RPR --output arm.toml"
+        the spatial robots hana, tripod, tripod-5dof, tripod-4dof, tripod-inclined, tripod-upright, tripteron, quadrupteron, hexapteron.\nExample:  assur new 3-RPR --output arm.toml"
     )]
     New {
         /// The family, as 3-RPR.

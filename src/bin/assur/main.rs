@@ -73,9 +73,11 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
 }
 
 /// Models of the spatial robots, as in `examples/`.
-const SPATIAL_MODELS: [(&str, &str); 7] = [
+const SPATIAL_MODELS: [(&str, &str); 9] = [
     ("hana", include_str!("../../../examples/hana.toml")),
     ("tripod", include_str!("../../../examples/tripod-cartesian.toml")),
+    ("tripod-5dof", include_str!("../../../examples/tripod-5dof.toml")),
+    ("tripod-4dof", include_str!("../../../examples/tripod-4dof.toml")),
     ("tripod-inclined", include_str!("../../../examples/tripod-inclined.toml")),
     ("tripod-upright", include_str!("../../../examples/tripod-upright.toml")),
     ("tripteron", include_str!("../../../examples/tripteron.toml")),

@@ -26,9 +26,6 @@ pub enum HanaCapabilityError {
         /// The mode asked for.
         mode: HanaMode,
     },
-    /// Legs 1 and 2 have different strokes: the supremum is known for equal ones only.
-    #[error("strokes of legs 1 and 2 differ; the largest capability is known for equal ones only")]
-    DifferentStrokes,
 }
 
 /// What ends the tilting at one side.
@@ -157,9 +154,10 @@ impl Hana {
     ///
     /// Along `z` the largest is among four places in closed form, since what the near ends of the strokes allow grows with `z` and what the far ends allow falls, with
     /// one jump at `hi - sqrt((l + r)² - R²)`, `l = sqrt(L² - y²)`. Along `y` it is sought on a grid and refined: not proved to be the largest.
+    /// Where the strokes of legs 1 and 2 differ, what both have in common counts: over tilts from `-a` to `a` slider 2 is at the heights of slider 1.
     ///
     /// # Errors
-    /// Sliders 1 and 2 on opposite sides of their joints; different strokes of theirs.
+    /// Sliders 1 and 2 on opposite sides of their joints.
     ///
     /// ```
     /// use assur::{Hana, HanaMode};
@@ -168,7 +166,19 @@ impl Hana {
     /// # Ok::<(), assur::HanaCapabilityError>(())
     /// ```
     pub fn capability_supremum(&self, mode: HanaMode) -> Result<Option<CapabilitySupremum>, HanaCapabilityError> {
-        self.check_same_side(mode)?;
+        if mode.above[0] != mode.above[1] {
+            return Err(HanaCapabilityError::OppositeSides { mode });
+        }
+        let [[low, high], [other_low, other_high], third] = self.strokes;
+        let common = [low.max(other_low), high.min(other_high)];
+        if common[0] > common[1] {
+            return Ok(None);
+        }
+        let robot = Self { strokes: [common, common, third], ..self.clone() };
+        robot.supremum_of_equal_strokes(mode)
+    }
+
+    fn supremum_of_equal_strokes(&self, mode: HanaMode) -> Result<Option<CapabilitySupremum>, HanaCapabilityError> {
         let region = self.workspace(0.0, mode)?;
         let mut best: Option<CapabilitySupremum> = None;
         for (_, arcs) in &region.loops {
@@ -206,16 +216,6 @@ impl Hana {
             }
         }
         Ok(best)
-    }
-
-    fn check_same_side(&self, mode: HanaMode) -> Result<(), HanaCapabilityError> {
-        if mode.above[0] != mode.above[1] {
-            return Err(HanaCapabilityError::OppositeSides { mode });
-        }
-        if self.strokes[0] != self.strokes[1] {
-            return Err(HanaCapabilityError::DifferentStrokes);
-        }
-        Ok(())
     }
 
     /// The same robot with every stroke of this half length about its middle.
@@ -337,6 +337,12 @@ impl Hana {
             .filter(|(phi, _)| (0.0..=FRAC_PI_2).contains(phi))
             .collect();
         ahead.sort_by(|a, b| a.0.total_cmp(&b.0));
+        // With a slider at an end already, rounding may have put the orientation at which it leaves on the other side.
+        let next = ahead.iter().map(|next| next.0).find(|&next| next > SAME).unwrap_or(FRAC_PI_2);
+        if !self.pair_allowed(at, mode, side * 0.5 * next) {
+            let nearest = stops.iter().min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+            return (0.0, nearest.map_or(CapabilityStop::QuarterTurn, |&(_, stop)| stop));
+        }
         for (k, &(phi, stop)) in ahead.iter().enumerate() {
             let singular = matches!(stop, CapabilityStop::QuarterTurn | CapabilityStop::InLine);
             let next = ahead[k + 1..].iter().map(|next| next.0).find(|next| next - phi > SAME);

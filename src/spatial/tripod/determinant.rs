@@ -101,7 +101,7 @@ impl TripodDesign {
 impl Tripod {
     /// `det J` in a pose, in the cube of the unit of length.
     ///
-    /// **Accuracy**: two determinants of order 3, a few roundings each; exactly zero only where one of them is. **Source**: derived above.
+    /// **Accuracy**: two determinants of order 3, a few roundings each; one that is zero to rounding makes it zero. **Source**: derived above.
     ///
     /// # Errors
     /// As [`Tripod::inverse`]: the singularities of type 1, where it has poles.
@@ -125,6 +125,17 @@ impl Tripod {
             normals[k] = plane.normal / plane.along;
             turns[k] = plane.axis.cross(&leg.w.cross(&apart)) / plane.along;
         }
-        Ok(-Matrix3::from_columns(&normals).determinant() * Matrix3::from_columns(&turns).determinant())
+        // Not -0 where it vanishes.
+        Ok(0.0 - volume(&normals) * volume(&turns))
     }
+}
+
+/// A volume within this of the product of the lengths is zero: what rounding leaves of vectors in a plane.
+const FLAT: f64 = 16.0 * f64::EPSILON;
+
+/// The volume that three vectors span; zero where it is so to rounding.
+fn volume(vectors: &[Vector3<f64>; 3]) -> f64 {
+    let volume = Matrix3::from_columns(vectors).determinant();
+    let lengths: f64 = vectors.iter().map(|vector| vector.norm()).product();
+    if volume.abs() <= FLAT * lengths { 0.0 } else { volume }
 }

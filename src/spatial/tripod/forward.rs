@@ -108,6 +108,7 @@ impl Tripod {
     /// ```
     pub fn forward(&self, inputs: &[f64; 6]) -> Result<TripodAssemblies, TripodError> {
         check(inputs)?;
+        self.together(inputs)?;
         let mut normals = [Vector3::zeros(); 3];
         for (k, leg) in self.legs.iter().enumerate() {
             let normal = leg.normal_of([inputs[2 * k], inputs[2 * k + 1]]);
@@ -141,6 +142,7 @@ impl Tripod {
     /// ```
     pub fn certify(&self, inputs: &[f64; 6]) -> Result<TripodAssemblies, TripodError> {
         check(inputs)?;
+        self.together(inputs)?;
         let finite = |v: &Vector3<f64>| exact3(&[v.x, v.y, v.z]).expect("a robot's numbers are finite");
         let exact = inputs.map(|x| dyadic(x).expect("inputs were checked"));
         let mut normals = Vec::with_capacity(3);

@@ -6,6 +6,7 @@
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::cartesian::{CartesianRobot, CartesianSingular};
+use super::fewer::{circle_equation, turned_into_plane};
 use super::model::TripodPose;
 use super::orientation::PlaneConditions;
 use crate::solve::Account;
@@ -29,17 +30,7 @@ impl CartesianRobot {
         let (Some(axis), Some(direction)) = (axis.try_normalize(0.0), direction.try_normalize(0.0)) else {
             return Vec::new();
         };
-        let Some(shortest) = Rotation3::rotation_between(&axis, &direction) else { return Vec::new() };
-        // (R y').x = a + b cos s + c sin s.
-        let y = shortest * Vector3::y();
-        let along = direction * direction.dot(&y);
-        let (a, b, c) = (along.x, y.x - along.x, direction.cross(&y).x);
-        let mut found: Vec<(f64, Rotation3<f64>)> = circle_equation(b, c, -a)
-            .into_iter()
-            .map(|torsion| (torsion, Rotation3::new(direction * torsion) * shortest))
-            .collect();
-        found.sort_by(|p, q| p.0.abs().total_cmp(&q.0.abs()));
-        found
+        turned_into_plane(&axis, &direction, &Vector3::y(), &Vector3::x())
     }
 
     /// The pose of the robot with four degrees of freedom, for `rho1, rho3, rho5, rho6`: legs 1 and 2 do not turn, the platform turns about `y` only.
@@ -57,21 +48,6 @@ impl CartesianRobot {
     pub fn forward_four(&self, &[r1, r3, r5, r6]: &[f64; 4]) -> Result<TripodPose, CartesianSingular> {
         self.forward(&[r1, r1, r3, r3, r5, r6])
     }
-}
-
-/// Angles in `(-pi, pi]` with `b cos s + c sin s = k`: two, one where they meet, or none.
-fn circle_equation(b: f64, c: f64, k: f64) -> Vec<f64> {
-    let amplitude = b.hypot(c);
-    if amplitude == 0.0 || k.abs() > amplitude {
-        return Vec::new();
-    }
-    let (middle, half) = (c.atan2(b), (k / amplitude).acos());
-    let wrapped = |angle: f64| angle.sin().atan2(angle.cos());
-    let mut found = vec![wrapped(middle - half)];
-    if half > 0.0 {
-        found.push(wrapped(middle + half));
-    }
-    found
 }
 
 /// The Tripteron: three legs, each of which holds the platform in a plane square to its slider; no rotation.

@@ -18,16 +18,20 @@
 mod cartesian;
 mod determinant;
 mod exact;
+mod fewer;
 mod forward;
 mod members;
 mod model;
 mod multipteron;
 mod orientation;
+mod sector;
 mod tilt;
+mod tilt_limits;
 mod velocity;
 
 pub use cartesian::{CartesianRobot, CartesianSingular};
 pub use determinant::{DeterminantPoint, TripodDesign};
+pub use fewer::TripodPointing;
 pub use forward::{Counted, TripodAssemblies, TripodAssembly, TripodStatus};
 pub use members::{Hexapteron, Quadrupteron, Tripteron};
 pub use model::{Tripod, TripodError, TripodLeg, TripodPose, TripodReach};

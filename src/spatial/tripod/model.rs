@@ -37,6 +37,8 @@ pub struct Tripod {
     pub tool_axis: Vector3<f64>,
     /// Largest angle, in radians, between a leg's plane and where it is with all sliders of the leg level; unlimited where there is none.
     pub plane_angle_limit: Option<f64>,
+    /// Legs with one motor: both sliders are one, the plane does not turn. Each takes a degree of freedom.
+    pub one_motor: [bool; 3],
 }
 
 /// A pose of the platform.
@@ -95,6 +97,24 @@ pub enum TripodError {
     NoRotation {
         /// Largest deviation.
         off: f64,
+    },
+    /// A leg with one motor would have to turn its plane.
+    #[error("leg {leg}: has one motor, its plane does not turn; its sliders would have to be {apart:.6e} apart")]
+    OneMotor {
+        /// Leg.
+        leg: usize,
+        /// The second slider's position less the first's.
+        apart: f64,
+    },
+    /// A question for robots with other degrees of freedom.
+    #[error("{what} is for robots with {needed} degrees of freedom; this one has {found}")]
+    DegreesOfFreedom {
+        /// The question.
+        what: &'static str,
+        /// Degrees of freedom that it needs.
+        needed: usize,
+        /// Those of the robot.
+        found: usize,
     },
     /// The inverse of a singular Jacobian is asked for.
     #[error("singular (type 2): the inputs do not determine the platform's motion; {reading}")]
@@ -192,6 +212,7 @@ impl Tripod {
             tool: Vector3::zeros(),
             tool_axis: Vector3::z(),
             plane_angle_limit: None,
+            one_motor: [false; 3],
         })
     }
 
@@ -275,7 +296,7 @@ impl Tripod {
     /// **Source**: Cherkhelanov, Bonev, eqs. (4)-(13).
     ///
     /// # Errors
-    /// A pose that is not finite; a leg's plane that is not determined, or parallel to its rails.
+    /// A pose that is not finite; a leg's plane that is not determined, or parallel to its rails; one that would have to turn and has one motor.
     ///
     /// ```
     /// use assur::{Tripod, TripodPose, nalgebra::Vector3};
@@ -294,6 +315,10 @@ impl Tripod {
             for (slider, rail) in [leg.da, leg.db].into_iter().enumerate() {
                 inputs[2 * k + slider] = plane.normal.dot(&(plane.joint - rail)) / plane.along;
             }
+        }
+        self.together(&inputs)?;
+        for k in (0..3).filter(|&k| self.one_motor[k]) {
+            inputs[2 * k + 1] = inputs[2 * k];
         }
         Ok(inputs)
     }

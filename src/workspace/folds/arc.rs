@@ -5,6 +5,7 @@ use nalgebra::Vector2;
 use super::super::boundary::ArcIntegrals;
 use super::super::limits::Limit;
 use super::coupled::{Branch, Coupled, EDGE};
+use crate::plane::gauss;
 
 type Point = Vector2<f64>;
 
@@ -25,16 +26,6 @@ pub struct CouplerArc {
     from: f64,
     to: f64,
 }
-
-/// Gauss-Legendre nodes and weights of order 12 on [-1, 1], positive half.
-const NODES: [[f64; 2]; 6] = [
-    [0.125_233_408_511_468_9, 0.249_147_045_813_402_8],
-    [0.367_831_498_998_180_2, 0.233_492_536_538_354_8],
-    [0.587_317_954_286_617_4, 0.203_167_426_723_065_92],
-    [0.769_902_674_194_304_7, 0.160_078_328_543_346_23],
-    [0.904_117_256_370_474_9, 0.106_939_325_995_318_43],
-    [0.981_560_634_246_719_2, 0.047_175_336_386_511_83],
-];
 
 /// Halves of an arc must agree with the whole to this share of its square (area) for it to count: some ten roundings.
 const AGREE: f64 = 4e-15;
@@ -104,19 +95,16 @@ impl CouplerArc {
     }
 
     fn gauss(&self, from: f64, to: f64, origin: Point) -> ArcIntegrals {
-        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
         let mut out = ArcIntegrals::default();
-        for [node, weight] in NODES {
-            for x in [node, -node] {
-                let (at, velocity) = self.at(middle + half * x);
-                let (p, w) = (at - origin, weight * half);
-                // Of the fan of triangles from the origin, as for lines and circles: only so do the shares of different arcs add up.
-                let fan = w * p.perp(&velocity);
-                out.area += 0.5 * fan;
-                out.moment[0] += p.x * fan / 3.0;
-                out.moment[1] += p.y * fan / 3.0;
-                out.length += w * velocity.norm();
-            }
+        for (part, w) in gauss(from, to) {
+            let (at, velocity) = self.at(part);
+            let p = at - origin;
+            // Of the fan of triangles from the origin, as for lines and circles: only so do the shares of different arcs add up.
+            let fan = w * p.perp(&velocity);
+            out.area += 0.5 * fan;
+            out.moment[0] += p.x * fan / 3.0;
+            out.moment[1] += p.y * fan / 3.0;
+            out.length += w * velocity.norm();
         }
         out
     }
