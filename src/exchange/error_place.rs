@@ -313,8 +313,8 @@ impl From<&WorkspaceError> for ErrorPlace {
             E::NotFinite { what, value } => Self::field(*what).and_value(FoundValue::Number(*value)),
             E::NegativeWidth { value } => Self::field("phi").and_value(FoundValue::Number(*value)),
             E::Unbounded { leg, joint } => Self::leg(*leg).and_joint(*joint).and_field("limits"),
-            E::ModesCross { leg, .. } => Self::leg(*leg).and_field("mode"),
             E::PoseNotAllowed { leg } => Self::leg(*leg).and_field("assembly"),
+            E::AssembliesUndecided { phi } => Self::field("assembly").and_value(FoundValue::Number(*phi)),
         }
     }
 }

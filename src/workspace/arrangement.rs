@@ -103,41 +103,59 @@ impl Plan<'_> {
         let mut touched = vec![false; vertices.len()];
         let mut arcs: Vec<JoinedArc> = Vec::new();
         let mut isolated: Vec<Isolated> = Vec::new();
+        let mut pieces: Vec<(usize, Piece)> = Vec::new();
         for (n, line) in lines.iter().enumerate() {
-            for piece in self.pieces(line, &ids, vertices.len() + n) {
-                let m = line.carrier.at(0.5 * (piece.from + piece.to));
-                if !self.inside(m, same) {
-                    continue;
-                }
-                let reach = self.clearance(&lines, n, m);
-                let normal = line.carrier.normal(m) * reach;
-                // Growing parameter: a circle has its inside on the left, a line its left.
-                let (left, right) = match line.carrier {
-                    Carrier::Circle { .. } => (m - normal, m + normal),
-                    Carrier::Line { .. } => (m + normal, m - normal),
-                };
-                let sides = [self.inside(left, 0.0), self.inside(right, 0.0)];
-                for id in piece.ends {
-                    if let Some(flag) = touched.get_mut(id) {
-                        *flag = true;
-                    }
-                }
-                if sides == [true, true] {
-                    continue;
-                }
-                let active = self.active(line, left, right);
-                let ahead = sides != [false, true];
-                // A whole circle without a vertex starts and ends in one and the same point.
-                let at = |id: usize| vertices.get(id).copied().unwrap_or_else(|| line.carrier.at(piece.from));
-                let ends = piece.ends.map(at);
-                let arc = boundary_arc(&line.carrier, [piece.from, piece.to], ends, ahead, active);
-                if sides == [false, false] {
-                    isolated.push(Isolated::Curve(arc));
-                    continue;
-                }
-                let [from, to] = if ahead { piece.ends } else { [piece.ends[1], piece.ends[0]] };
-                arcs.push(JoinedArc { arc, from, to, carrier: n });
+            pieces.extend(self.pieces(line, &ids, vertices.len() + n).into_iter().map(|piece| (n, piece)));
+        }
+        for (k, (n, piece)) in pieces.iter().enumerate() {
+            let (n, line) = (*n, &lines[*n]);
+            let m = line.carrier.at(0.5 * (piece.from + piece.to));
+            if !self.inside(m, same) {
+                continue;
             }
+            // Next to where two curves touch, pieces of both between the same vertices are one to roundings.
+            let twin = |other: &usize| {
+                let (line, piece) = (&lines[pieces[*other].0], &pieces[*other].1);
+                (line.carrier.at(0.5 * (piece.from + piece.to)) - m).norm() <= 4.0 * same
+            };
+            let between = |other: &usize| {
+                let ends = pieces[*other].1.ends;
+                pieces[*other].0 != n && (ends == piece.ends || ends == [piece.ends[1], piece.ends[0]])
+            };
+            let twins: Vec<usize> = (0..pieces.len()).filter(between).filter(twin).collect();
+            for id in piece.ends {
+                if let Some(flag) = touched.get_mut(id) {
+                    *flag = true;
+                }
+            }
+            if twins.iter().any(|&other| other < k) {
+                continue;
+            }
+            let together: ArrayVec<usize, 8> = twins.iter().map(|&other| pieces[other].0).chain([n]).take(8).collect();
+            let reach = self.clearance(&lines, n, &together, m);
+            let normal = line.carrier.normal(m) * reach;
+            // Growing parameter: a circle has its inside on the left, a line its left.
+            let (left, right) = match line.carrier {
+                Carrier::Circle { .. } => (m - normal, m + normal),
+                Carrier::Line { .. } => (m + normal, m - normal),
+            };
+            let sides = [self.inside(left, 0.0), self.inside(right, 0.0)];
+            if sides == [true, true] {
+                continue;
+            }
+            let bounds: Vec<usize> = together.iter().rev().flat_map(|&n| lines[n].bounds.iter().copied()).collect();
+            let active = self.active(&bounds, left, right);
+            let ahead = sides != [false, true];
+            // A whole circle without a vertex starts and ends in one and the same point.
+            let at = |id: usize| vertices.get(id).copied().unwrap_or_else(|| line.carrier.at(piece.from));
+            let ends = piece.ends.map(at);
+            let arc = boundary_arc(&line.carrier, [piece.from, piece.to], ends, ahead, active);
+            if sides == [false, false] {
+                isolated.push(Isolated::Curve(arc));
+                continue;
+            }
+            let [from, to] = if ahead { piece.ends } else { [piece.ends[1], piece.ends[0]] };
+            arcs.push(JoinedArc { arc, from, to, carrier: n });
         }
         for (k, &p) in vertices.iter().enumerate() {
             if ids[k] != k || touched[k] || !self.inside(p, same) {
@@ -146,7 +164,7 @@ impl Plan<'_> {
             // A point of radius zero may lie in the midst of the region.
             let around = |k: u32| {
                 let (sin, cos) = (0.3 + TAU * f64::from(k) / 8.0).sin_cos();
-                p + self.clearance(&lines, usize::MAX, p) * Vector2::new(cos, sin)
+                p + self.clearance(&lines, usize::MAX, &[], p) * Vector2::new(cos, sin)
             };
             if k < points && (0..8).any(|k| self.inside(around(k), 0.0)) {
                 continue;
@@ -187,13 +205,13 @@ impl Plan<'_> {
         out
     }
 
-    /// How far from a point of a curve its sides are tested: half as far as the nearest other curve passes.
-    fn clearance(&self, lines: &[Line], own: usize, m: Vector2<f64>) -> f64 {
+    /// How far from a point of a curve its sides are tested: half as far as the nearest curve passes that is not one of those `together` there.
+    fn clearance(&self, lines: &[Line], own: usize, together: &[usize], m: Vector2<f64>) -> f64 {
         /// No further than this much of the size or of a radius (heuristic: the curve is nearly straight so far).
         const STRAIGHT: f64 = 1e-3;
         let mut reach = 2.0 * STRAIGHT * self.size;
         for (k, line) in lines.iter().enumerate() {
-            if k != own {
+            if k != own && !together.contains(&k) {
                 reach = reach.min(line.carrier.distance(m).abs());
             } else if let Carrier::Circle { radius, .. } = line.carrier {
                 reach = reach.min(radius);
@@ -203,16 +221,16 @@ impl Plan<'_> {
     }
 
     /// The limits on a piece: of coincident curves those whose own leg admits one side only.
-    fn active(&self, line: &Line, left: Vector2<f64>, right: Vector2<f64>) -> Vec<ActiveLimit> {
+    fn active(&self, bounds: &[usize], left: Vector2<f64>, right: Vector2<f64>) -> Vec<ActiveLimit> {
         let differs = |leg| (self.admits)(leg, left, 0.0) != (self.admits)(leg, right, 0.0);
         let pick = |all: bool| {
-            let counted = line.bounds.iter().filter(|&&k| all || differs(self.bounds[k].leg));
+            let counted = bounds.iter().filter(|&&k| all || differs(self.bounds[k].leg));
             let mut names: Vec<_> = counted.flat_map(|&k| self.bounds[k].active.iter().copied()).collect();
             names.sort();
             names.dedup();
             names
         };
-        if line.bounds.len() == 1 {
+        if bounds.len() == 1 {
             return pick(true);
         }
         let some = pick(false);

@@ -20,8 +20,8 @@ type Point = Vector2<f64>;
 
 /// Orientations of change nearer to each other than this, radians, are one: a slice between them would be thinner than what is told apart.
 const SAME_TURN: f64 = 1e-9;
-/// Slices beside an orientation of change are taken so far from it, radians.
-const BESIDE: f64 = 1e-7;
+/// Slices beside an orientation of change are taken so far from it, radians; further away where digits run out nearer.
+const BESIDE: [f64; 4] = [1e-7, 1e-6, 1e-5, 1e-4];
 /// A piece is followed from slice to slice by at most so many slices between: a way halved towards one end takes some twenty.
 const FOLLOW: usize = 40;
 /// A place this near to a piece, as a share of the mechanism's length, may belong to it: places beside the boundary are asked for.
@@ -45,6 +45,8 @@ struct Slice {
     parts: Vec<Part>,
     /// Arcs on which the modes of a leg merge: leg and a place on it.
     merging: Vec<(usize, Point)>,
+    /// Whether all its loops close.
+    closed: bool,
 }
 
 /// One choice of working modes.
@@ -63,16 +65,18 @@ struct Space {
     changes: Vec<f64>,
     parent: Vec<usize>,
     size: f64,
+    /// An orientation at which slices could not be followed.
+    undecided: Option<f64>,
 }
 
 impl Reach {
     /// The workspace of each assembly: what the platform can reach without being taken apart, largest first.
     ///
     /// Assemblies may overlap in the plane. Working modes change where they merge, as far as both are allowed. **Cost**: some hundred slices,
-    /// tens of milliseconds to seconds for legs with two modes. **Accuracy**: as [`Reach::workspace`].
+    /// tens of milliseconds to seconds for legs with two modes. **Accuracy**: as [`Reach::workspace`]; parts that meet in a neck thinner than 1e-7 of the mechanism's length may count as two.
     ///
     /// # Errors
-    /// No leg whose limits bound the workspace.
+    /// No leg whose limits bound the workspace; slices that cannot be followed from one to the next, where digits run out.
     ///
     /// ```
     /// use assur::{Leg, Manipulator, workspace::WorkspaceModes};
@@ -90,6 +94,7 @@ impl Reach {
     pub fn assemblies(&self) -> Result<Vec<Workspace>, WorkspaceError> {
         self.window()?;
         let space = Space::new(self);
+        space.decided()?;
         let roots = space.roots();
         if roots.len() < 2 {
             return Ok(roots.iter().map(|_| self.folded(&WorkspaceKind::Maximal, None)).collect());
@@ -105,7 +110,7 @@ impl Reach {
     /// The pose is the platform frame's. **Cost**, **accuracy**: as [`Reach::assemblies`].
     ///
     /// # Errors
-    /// No leg whose limits bound the workspace; a pose that a leg does not allow, or that is not finite.
+    /// No leg whose limits bound the workspace; a pose that a leg does not allow, or that is not finite; slices that cannot be followed.
     pub fn assembly(&self, from: &Pose) -> Result<Workspace, WorkspaceError> {
         for (what, value) in [("x", from.x), ("y", from.y), ("phi", from.phi)] {
             if !value.is_finite() {
@@ -121,6 +126,7 @@ impl Reach {
             }
         }
         let space = Space::new(self);
+        space.decided()?;
         let wanted = space.roots_at(at, from.phi);
         if space.roots().iter().all(|root| wanted.contains(root)) {
             return Ok(self.folded(&WorkspaceKind::Maximal, None));
@@ -148,12 +154,15 @@ impl Space {
         if changes.is_empty() {
             changes.push(0.0);
         }
-        let mut out = Self { sheets: Vec::new(), changes, parent: Vec::new(), size: reach.size() };
+        let mut out = Self { sheets: Vec::new(), changes, parent: Vec::new(), size: reach.size(), undecided: None };
         for modes in choices(reach) {
             let reach = reach.in_modes(&modes);
             let slices: Vec<Slice> = (0..out.changes.len()).map(|k| slice(&reach, out.middle(k))).collect();
             let mut first = Vec::with_capacity(slices.len());
             for slice in &slices {
+                if !slice.closed {
+                    out.undecided = Some(slice.phi);
+                }
                 first.push(out.parent.len());
                 out.parent.extend(out.parent.len()..out.parent.len() + slice.parts.len());
             }
@@ -236,24 +245,51 @@ impl Space {
     /// Joins them close to the orientation of change between them.
     fn join_near(&mut self) {
         let mut pairs = Vec::new();
+        let mut undecided = None;
         let count = self.changes.len();
         for sheet in &self.sheets {
             for k in 0..count {
                 let next = (k + 1) % count;
-                let at = self.changes[next];
-                let step = BESIDE.min(0.25 * self.interval(k).1).min(0.25 * self.interval(next).1);
-                let [before, after] = [-step, step].map(|step| slice(&sheet.reach, at + step));
-                let earlier = self.follow(&sheet.reach, &before, &sheet.slices[k], &mut { FOLLOW });
-                let later = self.follow(&sheet.reach, &after, &sheet.slices[next], &mut { FOLLOW });
-                for (i, j) in self.links(&sheet.reach, &before, &after) {
-                    if let (Some(i), Some(j)) = (earlier[i], later[j]) {
-                        pairs.push((sheet.first[k] + i, sheet.first[next] + j));
+                match self.passage(sheet, k, next) {
+                    Some(found) => {
+                        pairs.extend(found.into_iter().map(|(i, j)| (sheet.first[k] + i, sheet.first[next] + j)))
                     }
+                    None => undecided = Some(self.changes[next]),
                 }
             }
         }
         for (one, other) in pairs {
             self.unite(one, other);
+        }
+        self.undecided = self.undecided.or(undecided);
+    }
+
+    /// Which parts of a slice and of the next are joined at the orientation of change between them; `None` where one of them, seen just beside it, cannot be followed.
+    fn passage(&self, sheet: &Sheet, k: usize, next: usize) -> Option<Vec<(usize, usize)>> {
+        let at = self.changes[next];
+        BESIDE.into_iter().find_map(|step| {
+            let step = step.min(0.25 * self.interval(k).1).min(0.25 * self.interval(next).1);
+            let [before, after] = [-step, step].map(|step| slice(&sheet.reach, at + step));
+            let earlier = self.follow(&sheet.reach, &before, &sheet.slices[k], &mut { FOLLOW });
+            let later = self.follow(&sheet.reach, &after, &sheet.slices[next], &mut { FOLLOW });
+            // Parts too thin for a place inside them join nothing.
+            let followed = |slice: &Slice, to: &[Option<usize>]| {
+                slice.closed && slice.parts.iter().zip(to).all(|(part, to)| part.inside.is_empty() || to.is_some())
+            };
+            if !followed(&before, &earlier) || !followed(&after, &later) {
+                return None;
+            }
+            let links = self.links(&sheet.reach, &before, &after).into_iter();
+            Some(links.filter_map(|(i, j)| Some((earlier[i]?, later[j]?))).collect())
+        })
+    }
+
+    /// # Errors
+    /// More than one part, and slices that could not be followed.
+    fn decided(&self) -> Result<(), WorkspaceError> {
+        match self.undecided {
+            Some(phi) if self.roots().len() > 1 => Err(WorkspaceError::AssembliesUndecided { phi }),
+            _ => Ok(()),
         }
     }
 
@@ -436,7 +472,7 @@ fn slice(reach: &Reach, phi: f64) -> Slice {
                 _ => None,
             })
     });
-    Slice { phi, merging: merging.collect(), parts }
+    Slice { phi, merging: merging.collect(), parts, closed: region.unclosed.is_empty() }
 }
 
 /// Whether no smaller part around a place lies within the one of this area.

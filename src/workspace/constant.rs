@@ -45,8 +45,8 @@ impl Reach {
         self.window()?;
         let region = match kind {
             WorkspaceKind::Constant { phi } => self.constant(*phi),
-            WorkspaceKind::Total(range) => self.total(Some(range))?,
-            WorkspaceKind::Dextrous => self.total(None)?,
+            WorkspaceKind::Total(range) => self.total(Some(range)),
+            WorkspaceKind::Dextrous => self.total(None),
             WorkspaceKind::Inclusive(range) if range.width == 0.0 => self.constant(range.from),
             WorkspaceKind::Inclusive(range) => return Ok(self.folded(kind, Some(range))),
             WorkspaceKind::Maximal => return Ok(self.folded(kind, None)),

@@ -127,15 +127,13 @@ pub enum WorkspaceError {
         /// The joint whose limits would bound it, from 1.
         joint: usize,
     },
-    /// With both modes, ranges of the first and of the last joint bound the orientations of a leg by curves that the kind of workspace does not cover.
+    /// Two parts of the configuration space may be one: at an orientation a slice of it cannot be followed.
     #[error(
-        "leg {leg}: {kind} workspaces of a leg with ranges of joints 1 and 3 are covered for one working mode, not for both"
+        "assemblies not decided: near phi = {phi} rad digits run out, and parts of the configuration space cannot be followed"
     )]
-    ModesCross {
-        /// Leg, from 1.
-        leg: usize,
-        /// The kind asked for.
-        kind: &'static str,
+    AssembliesUndecided {
+        /// The orientation, radians.
+        phi: f64,
     },
     /// The pose that names an assembly is none: a leg does not allow it.
     #[error("leg {leg}: does not allow the pose of the assembly")]

@@ -10,7 +10,7 @@ use nalgebra::Vector2;
 
 use super::arrangement::{Bound, Plan, SAME};
 use super::leg::{Chain, LegReach};
-use super::limits::{ActiveLimit, Limit, LimitCause, WorkspaceError};
+use super::limits::{ActiveLimit, Limit, LimitCause};
 use super::reach::Reach;
 use super::region::Region;
 use crate::linkage::{Dyad, Offset};
@@ -18,21 +18,21 @@ use crate::plane::{Carrier, Meeting, PhiRange, Sector, conjugate, direction, pro
 
 impl Reach {
     /// The places reached in every orientation of a range, or in every one.
-    pub(super) fn total(&self, range: Option<&PhiRange>) -> Result<Region, WorkspaceError> {
+    pub(super) fn total(&self, range: Option<&PhiRange>) -> Region {
         let range = range.filter(|range| !range.is_full());
-        for (k, leg) in self.legs.iter().enumerate() {
-            if leg.base_joint_limited() && leg.platform_sector.is_some() && leg.modes == [true, true] {
-                let kind = if range.is_some() { "total" } else { "dextrous" };
-                return Err(WorkspaceError::ModesCross { leg: k + 1, kind });
-            }
-        }
         let mut bounds = Vec::new();
         for (k, leg) in self.legs.iter().enumerate() {
             leg.worst(k, range, self.size, &mut bounds);
         }
         let sweep = Sweep::new(range);
+        if self.legs.iter().any(LegReach::modes_cross) {
+            let reached = |at: Vector2<f64>| {
+                self.legs.iter().all(|leg| leg.allows_all(at, &sweep, super::reach::TOUCH * self.size, self.size))
+            };
+            return self.every(&bounds, range, &reached);
+        }
         let admits = |leg: usize, p: Vector2<f64>, tol: f64| self.legs[leg].allows_all(p, &sweep, tol, self.size);
-        Ok(Plan { bounds: &bounds, legs: self.legs.len(), admits: &admits, size: self.size }.region())
+        Plan { bounds: &bounds, legs: self.legs.len(), admits: &admits, size: self.size }.region()
     }
 }
 
@@ -61,6 +61,11 @@ impl LegReach {
             Chain::Prr { .. } => self.stroke.iter().any(|end| end.is_finite()),
             _ => self.base_sector.is_some(),
         }
+    }
+
+    /// Whether an end of joint 1 in one mode and one of joint 3 in the other can bound the orientations together.
+    fn modes_cross(&self) -> bool {
+        self.base_joint_limited() && self.platform_sector.is_some() && self.modes == [true, true]
     }
 
     /// Whether the leg allows a place in every orientation of a range (`None`: of all).

@@ -2,6 +2,7 @@
 //!
 //! `ASSUR_TEST_SCALE` multiplies how many random manipulators are asked.
 
+mod assemblies;
 mod design;
 mod faces;
 mod golden;

@@ -177,6 +177,27 @@ impl OracleLeg {
         best.min(reach)
     }
 
+    /// Of a PRR leg: its link, and how far the pivot lies beside the slider.
+    fn beside(&self, c: [f64; 2], sin: f64, cos: f64) -> (f64, f64) {
+        let v = [
+            c[0] + cos * self.b[0] - sin * self.b[1] - self.a[0],
+            c[1] + sin * self.b[0] + cos * self.b[1] - self.a[1],
+        ];
+        (self.t2[0].hypot(self.t2[1]), turned(v, -self.alpha)[1] - self.t1[1])
+    }
+
+    /// By how much the slack can grow while the pivot moves by `half`.
+    fn change_within(&self, c: [f64; 2], sin: f64, cos: f64, half: f64) -> f64 {
+        if self.chain != Chain::Prr {
+            return half;
+        }
+        // A stroke changes by the root of what is left beside the slider as well.
+        let (l, side) = self.beside(c, sin, cos);
+        let root = |side: f64| ((l - side.abs()) * (l + side.abs())).max(0.0).sqrt();
+        let (less, more) = (root((side.abs() - half).max(0.0)), root(side.abs() + half));
+        half + (less - root(side)).max(root(side) - more)
+    }
+
     /// Reach, then for each mode `q1`, `q2` and the direction in which joint 3's inner frame points.
     fn rpr(&self, v: [f64; 2]) -> (f64, [[f64; 3]; 2]) {
         let back = turned(self.t1, -self.d1);
@@ -251,6 +272,32 @@ impl Oracle {
     pub fn slack(&self, at: [f64; 2], phi: f64) -> f64 {
         let (sin, cos) = phi.sin_cos();
         self.legs.iter().map(|leg| leg.slack(at, sin, cos, phi, self.size)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// At least the slack of every pose whose pivots are within `half` of those of a pose; for legs without ranges of passive joints.
+    pub fn slack_within(&self, at: [f64; 2], phi: f64, half: f64) -> f64 {
+        let (sin, cos) = phi.sin_cos();
+        let leg = |leg: &OracleLeg| leg.slack(at, sin, cos, phi, self.size) + leg.change_within(at, sin, cos, half);
+        self.legs.iter().map(leg).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Where the modes of a PRR leg merge nearest to a place, the platform not turned.
+    pub fn merging(&self, leg: usize, at: [f64; 2], phi: f64) -> Option<[f64; 2]> {
+        let leg = &self.legs[leg];
+        if leg.chain != Chain::Prr {
+            return None;
+        }
+        let (sin, cos) = phi.sin_cos();
+        let (l, side) = leg.beside(at, sin, cos);
+        let across = turned([0.0, (l - side.abs()) * if side < 0.0 { -1.0 } else { 1.0 }], leg.alpha);
+        Some([at[0] + across[0], at[1] + across[1]])
+    }
+
+    /// How far that is.
+    pub fn merging_gap(&self, leg: usize, at: [f64; 2], phi: f64) -> f64 {
+        let (sin, cos) = phi.sin_cos();
+        let (l, side) = self.legs[leg].beside(at, sin, cos);
+        (l - side.abs()).abs()
     }
 
     /// The largest slack over the orientations, or the smallest where every one is asked for. `enough`: a value beyond which nobody needs to know better.

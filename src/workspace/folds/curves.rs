@@ -82,28 +82,36 @@ pub(super) struct Curves {
     pub(super) vertices: Vec<Point>,
     /// Orientations at which limits begin or cease to meet each other.
     turning: Vec<f64>,
+    /// Poses that hold a limit of each of three legs.
+    pub(super) poses: Vec<(Place, [usize; 3])>,
     /// First of the branches of each coupled curve.
-    first_branch: Vec<usize>,
-    tol: f64,
+    pub(super) first_branch: Vec<usize>,
+    pub(super) tol: f64,
     far: f64,
-    size: f64,
+    pub(super) size: f64,
 }
 
 impl Curves {
-    /// The candidates of a manipulator, divided where another limit or the end of the range of orientations is met, or where their own sense changes.
-    pub(super) fn new(reach: &Reach, range: Option<&PhiRange>) -> Self {
+    /// None.
+    pub(super) fn empty(reach: &Reach) -> Self {
         let size = reach.size();
-        let mut all = Self {
-            surfaces: surfaces(reach, size),
+        Self {
+            surfaces: Vec::new(),
             coupled: Vec::new(),
             curves: Vec::new(),
             vertices: Vec::new(),
             turning: Vec::new(),
+            poses: Vec::new(),
             first_branch: Vec::new(),
             tol: TOUCH * size,
             far: FAR * size,
             size,
-        };
+        }
+    }
+
+    /// The candidates of a manipulator, divided where another limit or the end of the range of orientations is met, or where their own sense changes.
+    pub(super) fn new(reach: &Reach, range: Option<&PhiRange>) -> Self {
+        let mut all = Self { surfaces: surfaces(reach, reach.size()), ..Self::empty(reach) };
         let stationary = all.add_stationary();
         let ends = range.map(|range| all.add_phi_ends(range));
         let upright = all.add_upright();
@@ -168,16 +176,16 @@ impl Curves {
         out
     }
 
-    fn vertex(&mut self, at: Point) -> usize {
+    pub(super) fn vertex(&mut self, at: Point) -> usize {
         self.vertices.push(at);
         self.vertices.len() - 1
     }
 
-    fn mark(&mut self, curve: usize, t: f64, vertex: usize) {
+    pub(super) fn mark(&mut self, curve: usize, t: f64, vertex: usize) {
         self.curves[curve].marks.push((t, vertex));
     }
 
-    fn push(&mut self, course: Course) -> usize {
+    pub(super) fn push(&mut self, course: Course) -> usize {
         self.curves.push(Curve { course, marks: Vec::new() });
         self.curves.len() - 1
     }
@@ -518,6 +526,7 @@ impl Curves {
                         let c = Point::new(mode.pose.x, mode.pose.y);
                         let place = Place { c, turn: direction(mode.pose.phi) };
                         self.turning.push(mode.pose.phi);
+                        self.poses.push((place, [i, j, k]));
                         let vertex = self.vertex(c);
                         for pair in [[i, j], [i, k], [j, k]] {
                             self.mark_coupled(book, pair, &place, mode.pose.phi, vertex);
@@ -532,7 +541,7 @@ impl Curves {
     }
 
     /// Where branches of one coupled curve join.
-    fn mark_branch_ends(&mut self) {
+    pub(super) fn mark_branch_ends(&mut self) {
         for coupled in 0..self.coupled.len() {
             let (curve, _) = self.coupled[coupled];
             let first = self.first_branch[coupled];
@@ -637,7 +646,7 @@ fn along(on: &Carrier, t: f64) -> Point {
 }
 
 /// The limits of a manipulator, those of one surface together.
-fn surfaces(reach: &Reach, size: f64) -> Vec<Surface> {
+pub(super) fn surfaces(reach: &Reach, size: f64) -> Vec<Surface> {
     let mut out: Vec<Surface> = Vec::new();
     for limit in reach.limits() {
         let Some(form) = Form::of(&limit.dyad) else { continue };

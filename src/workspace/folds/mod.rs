@@ -18,6 +18,7 @@ mod coupled;
 mod crossings;
 mod curves;
 mod edges;
+mod every;
 mod motion;
 mod outline;
 mod surface;

@@ -18,9 +18,10 @@ use super::coupled::EDGE;
 use super::crossings::{Chord, Common, chords, meet, nearest};
 use super::curves::{AROUND, Course, Curves, Source, active_of, outside};
 use super::edges;
+use super::every::{self, Named};
 use super::surface::{Form, Place, Slope, quarter};
 use crate::linkage::Dyad;
-use crate::plane::{Carrier, Meeting, PhiRange, product};
+use crate::plane::{Carrier, Meeting, PhiRange, direction, product};
 
 type Point = Vector2<f64>;
 
@@ -95,6 +96,7 @@ pub(super) struct Outline {
     pub(super) boundary: Vec<JoinedArc>,
     pub(super) separating: Vec<BoundaryArc>,
     pub(super) isolated: Vec<BoundaryArc>,
+    pub(super) points: Vec<Isolated>,
     /// Pieces whose sides said neither.
     pub(super) undecided: Vec<BoundaryArc>,
 }
@@ -102,7 +104,7 @@ pub(super) struct Outline {
 impl Outline {
     /// The workspace it bounds.
     pub(super) fn workspace(self, kind: &WorkspaceKind) -> Workspace {
-        let isolated = self.isolated.into_iter().map(Isolated::Curve).collect();
+        let isolated = self.isolated.into_iter().map(Isolated::Curve).chain(self.points).collect();
         let mut region = Region::from_arcs(self.boundary, isolated);
         region.unclosed.extend(self.undecided);
         Workspace { kind: *kind, region, separating: self.separating }
@@ -144,10 +146,23 @@ pub(super) struct Tracer<'a> {
     pub(super) folds: Vec<Piece>,
     /// Whether only some of the places reached are asked for: what bounds others is nothing then.
     partial: bool,
+    /// What candidates are called whose sides alone decide; empty where the fold rule does.
+    named: Vec<Named>,
     size: f64,
 }
 
 impl<'a> Tracer<'a> {
+    /// Candidates that the fold rule has no part in.
+    pub(super) fn of_candidates(reach: &'a Reach, curves: Curves, named: Vec<Named>) -> Self {
+        let mut out = Self { reach, range: None, curves, folds: Vec::new(), partial: false, named, size: reach.size() };
+        out.merge_vertices();
+        for curve in (0..out.curves.curves.len()).filter(|&curve| !out.named[curve].double).collect::<Vec<_>>() {
+            let pieces = out.pieces(curve);
+            out.folds.extend(pieces);
+        }
+        out
+    }
+
     pub(super) fn new(reach: &'a Reach, range: Option<&PhiRange>) -> Self {
         let range = range.filter(|range| !range.is_full());
         let mut out = Self {
@@ -156,6 +171,7 @@ impl<'a> Tracer<'a> {
             curves: Curves::new(reach, range),
             folds: Vec::new(),
             partial: false,
+            named: Vec::new(),
             size: reach.size(),
         };
         out.merge_vertices();
@@ -258,6 +274,9 @@ impl<'a> Tracer<'a> {
             Course::Coupled { .. } => piece.part(part).clamp(EDGE, 1.0 - EDGE),
             _ => piece.part(part),
         };
+        if !self.named.is_empty() {
+            return every::look(&self.curves, &self.named, piece.curve, t);
+        }
         let point = self.curves.at(piece.curve, t);
         let at = point.at;
         let tol = VALID * self.size;
@@ -463,6 +482,8 @@ impl<'a> Tracer<'a> {
     /// What a piece is to the places `reached`, with the look that told.
     pub(super) fn standing(&self, piece: &Piece, reached: &Reached<'_>) -> (Standing, Option<Look>) {
         let mut last = None;
+        // Whether no place beside the piece was ever reached: then the pose that it holds is all there is.
+        let mut alone = true;
         for part in LOOKS {
             let Some(look) = self.look(piece, part) else { continue };
             let t = piece.part(part);
@@ -470,6 +491,7 @@ impl<'a> Tracer<'a> {
             for distance in BESIDE {
                 let aside = look.outward * (distance * self.size);
                 let (inside, outside) = (reached(look.at - aside), reached(look.at + aside));
+                alone &= !inside && !outside;
                 let on_left = left.dot(&look.outward) < 0.0;
                 match (inside, outside) {
                     (true, false) => return (Standing::Boundary(on_left), Some(look)),
@@ -484,7 +506,12 @@ impl<'a> Tracer<'a> {
             }
             last = Some(look);
         }
-        (if last.is_some() && !self.partial { Standing::Undecided } else { Standing::Nothing }, last)
+        let standing = match last {
+            Some(_) if !self.partial && alone => Standing::Isolated,
+            Some(_) if !self.partial => Standing::Undecided,
+            _ => Standing::Nothing,
+        };
+        (standing, last)
     }
 
     /// The outline with respect to the places `reached`.
@@ -492,13 +519,15 @@ impl<'a> Tracer<'a> {
         let mut out = Outline::default();
         let mut boundary: Vec<(Piece, bool, Look)> = Vec::new();
         let mut undecided: Vec<(Piece, bool, Look)> = Vec::new();
+        let mut isolated: Vec<(Piece, bool, Look)> = Vec::new();
         for piece in &self.folds {
             let (standing, look) = self.standing(piece, reached);
             let Some(look) = look else { continue };
             match standing {
                 Standing::Boundary(on_left) => boundary.push((*piece, on_left, look)),
+                Standing::Separating(_) if !self.named.is_empty() => {}
                 Standing::Separating(on_left) => out.separating.push(self.arc(piece, on_left, &look)),
-                Standing::Isolated => out.isolated.push(self.arc(piece, true, &look)),
+                Standing::Isolated => isolated.push((*piece, true, look)),
                 Standing::Nothing => {}
                 Standing::Undecided => undecided.push((*piece, true, look)),
             }
@@ -507,6 +536,8 @@ impl<'a> Tracer<'a> {
         self.prune(&mut boundary);
         // What runs along a boundary adds nothing to it.
         undecided.retain(|open| !boundary.iter().any(|other| self.along(&open.0, &other.0)));
+        isolated.retain(|open| !boundary.iter().any(|other| self.along(&open.0, &other.0)));
+        self.drop_doubles(&mut isolated);
         // Nor do short ones where curves touch to a high order, if all loops close without them.
         if balance(&boundary).values().all(|&sum| sum == 0) {
             undecided.retain(|(piece, _, _)| {
@@ -515,11 +546,59 @@ impl<'a> Tracer<'a> {
             });
         }
         out.undecided = undecided.iter().map(|(piece, on_left, look)| self.arc(piece, *on_left, look)).collect();
+        if !self.partial {
+            out.points = self.points(&boundary, &isolated, reached);
+        }
+        join(&mut isolated);
+        out.isolated = isolated.iter().map(|(piece, on_left, look)| self.arc(piece, *on_left, look)).collect();
         join(&mut boundary);
         for (piece, on_left, look) in &boundary {
             let ends = if *on_left { [piece.start, piece.end] } else { [piece.end, piece.start] };
             let arc = self.arc(piece, *on_left, look);
             out.boundary.push(JoinedArc { arc, from: ends[0], to: ends[1], carrier: piece.curve });
+        }
+        out
+    }
+
+    /// Places with a pose that holds a limit of each of three legs, and nothing reached around them.
+    fn points(
+        &self,
+        boundary: &[(Piece, bool, Look)],
+        isolated: &[(Piece, bool, Look)],
+        reached: &Reached<'_>,
+    ) -> Vec<Isolated> {
+        /// Directions in which something around is sought, and how far off, as a share of the mechanism's length (heuristic: a piece of the
+        /// workspace that ends in the place has it for an end of its boundary, which is asked for as well).
+        const AROUND: u32 = 8;
+        const OFF: f64 = 1e-7;
+        let mut out: Vec<Isolated> = Vec::new();
+        let vertices = &self.curves.vertices;
+        let near = |at: &Point, p: Point| (p - at).norm() <= 4.0 * SAME_VERTEX * self.size;
+        let within = |phi: Point| {
+            let angle = phi.y.atan2(phi.x);
+            self.range.is_none_or(|range| outside(&range, angle) <= PHI_SLACK)
+        };
+        for (place, surfaces) in &self.curves.poses {
+            let at = place.c;
+            let allowed = |leg: &super::super::leg::LegReach| leg.allows_pose(at, place.turn, VALID * self.size);
+            if !within(place.turn) || !self.reach.legs.iter().all(allowed) {
+                continue;
+            }
+            let mut ends = boundary.iter().chain(isolated).flat_map(|(piece, ..)| [piece.start, piece.end]);
+            let known = |part: &Isolated| matches!(part, Isolated::Point { at: p, .. } if near(&at, Point::from(*p)));
+            let beside = |k: u32| {
+                at + direction(0.3 + super::curves::AROUND * f64::from(k) / f64::from(AROUND)) * (OFF * self.size)
+            };
+            if ends.any(|end| near(&at, vertices[end]))
+                || out.iter().any(known)
+                || (0..AROUND).any(|k| reached(beside(k)))
+            {
+                continue;
+            }
+            let mut active: Vec<ActiveLimit> =
+                surfaces.iter().map(|&s| self.curves.surfaces[s].limits[0].active()).collect();
+            active.sort();
+            out.push(Isolated::Point { at: at.into(), active });
         }
         out
     }
