@@ -14,14 +14,16 @@ from ._assur import __version__
 from .claims import Claim, Verification
 from .errors import AssurError, InputError, ModelError
 from .groups import CouplerCurve, GroupAssemblies, LinkageAssemblies, coupler, group, triad
+from .hana import ArcRegion, Hana, HanaAssemblies, HanaTilts, HanaVelocity, HanaWays
 from .loci import SingularityLoci
 from .manipulator import Manipulator
 from .modes import Account, AssemblyModes, Mode, ModesBatch
 from .motion import Velocity, WorkingMode, WorkingModes
+from .multipteron import Multipteron, MultipteronInputs, MultipteronPoses
 from .paths import FollowedPath
-from .spatial import ArcRegion, Hana, HanaAssemblies, HanaTilts, HanaVelocity, HanaWays, Tilt, TiltMap, Tripod
-from .spatial import TripodAssemblies, TripodVelocity, TripodWay
+from .poses import VelocityBatch, WorkingModesBatch
 from .sweeps import Design, Sweep, sweep, vary
+from .tripod import DeterminantCurves, Tilt, TiltMap, Tripod, TripodAssemblies, TripodVelocity, TripodWay
 from .workspaces import Region
 
 __all__ = [
@@ -32,6 +34,7 @@ __all__ = [
     "Claim",
     "CouplerCurve",
     "Design",
+    "DeterminantCurves",
     "FollowedPath",
     "GroupAssemblies",
     "Hana",
@@ -45,6 +48,9 @@ __all__ = [
     "Mode",
     "ModelError",
     "ModesBatch",
+    "Multipteron",
+    "MultipteronInputs",
+    "MultipteronPoses",
     "Region",
     "SingularityLoci",
     "Sweep",
@@ -55,9 +61,11 @@ __all__ = [
     "TripodVelocity",
     "TripodWay",
     "Velocity",
+    "VelocityBatch",
     "Verification",
     "WorkingMode",
     "WorkingModes",
+    "WorkingModesBatch",
     "__version__",
     "coupler",
     "group",

@@ -11,6 +11,8 @@ from .errors import InputError
 
 FloatArray: TypeAlias = NDArray[np.float64]
 
+#: Most points along a curve.
+MOST_POINTS = 1_000_000
 #: Kinds of dtype that are real numbers: floats, integers, unsigned integers.
 _REAL = "fiu"
 
@@ -25,18 +27,19 @@ def _numbers(what: str, values: ArrayLike) -> FloatArray:
     if isinstance(values, np.ma.MaskedArray):
         # What is masked is not known, and must not be taken for a number.
         found = np.ma.filled(values.astype(np.float64), np.nan)
-    return np.asarray(found, dtype=np.float64)
+    # Without entries any kind will do.
+    return np.asarray(found, dtype=np.float64) if found.size else np.zeros(found.shape)
 
 
 def _wrong_shape(what: str, found: FloatArray, expected: str) -> InputError:
     return InputError(f"{what}: shape {found.shape} must be {expected}", field=what, value=found.shape)
 
 
-def vector(what: str, values: ArrayLike, length: int) -> list[float]:
-    """``length`` numbers as a list."""
+def vector(what: str, values: ArrayLike, *lengths: int) -> list[float]:
+    """Numbers as a list; as many as one of ``lengths``."""
     found = _numbers(what, values)
-    if found.shape != (length,):
-        raise _wrong_shape(what, found, f"({length},)")
+    if found.shape not in [(length,) for length in lengths]:
+        raise _wrong_shape(what, found, " or ".join(f"({length},)" for length in lengths))
     return [float(value) for value in found]
 
 
@@ -68,6 +71,14 @@ def one_or_rows(what: str, values: ArrayLike, width: int) -> list[float] | Float
     raise _wrong_shape(what, found, f"({width},) or (n, {width})")
 
 
+def spread(what: str, values: ArrayLike, count: int, width: int) -> FloatArray:
+    """One row for all of ``count``, or a row for each."""
+    found = _numbers(what, values)
+    if found.shape not in [(width,), (count, width)]:
+        raise _wrong_shape(what, found, f"({width},) or ({count}, {width})")
+    return _packed(np.broadcast_to(found, (count, width)))
+
+
 def number(what: str, value: object) -> float:
     """One number."""
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)):
@@ -76,6 +87,13 @@ def number(what: str, value: object) -> float:
         return float(value)
     except OverflowError:
         raise InputError(f"{what}: {value!r} must be finite", field=what, value=value) from None
+
+
+def whole(what: str, value: int, least: int, most: int) -> int:
+    """A whole number between two."""
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not least <= value <= most:
+        raise InputError(f"{what}: {value!r} must be a whole number from {least} to {most}", field=what, value=value)
+    return int(value)
 
 
 def read_only(array: NDArray[np.generic]) -> None:

@@ -12,13 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .groups import CouplerCurve, GroupAssemblies, LinkageAssemblies
+from .hana import ArcRegion, HanaTilts
 from .loci import SingularityLoci
 from .manipulator import Manipulator
 from .modes import AssemblyModes, Mode, ModesBatch
 from .motion import WorkingModes
 from .paths import FollowedPath
-from .spatial import ArcRegion, HanaTilts, TiltMap
 from .sweeps import Sweep
+from .tripod import DeterminantCurves, TiltMap
 from .workspaces import POINTS, Region
 
 if TYPE_CHECKING:
@@ -63,15 +64,11 @@ def _colour(place: int) -> str:
 # --- mechanisms ----------------------------------------------------------------------------------------------------------------------
 
 
-def _actuated(robot: Manipulator) -> list[list[bool]]:
-    return [[joint in leg["actuated"] for joint in (1, 2, 3)] for leg in robot.check()["legs"]]
-
-
 def _chains(ax: Axes, robot: Manipulator, joints: Points, colour: str, label: str | None = None) -> None:
     """Legs and platform for given joint values."""
     frames = robot.frames(joints)
     kinds = [leg["joints"].replace("_", "") for leg in robot.check()["legs"]]
-    for leg, (chain, kind, actuated) in enumerate(zip(frames, kinds, _actuated(robot), strict=True)):
+    for leg, (chain, kind, actuated) in enumerate(zip(frames, kinds, robot._actuated(), strict=True)):
         line = chain[:, :, :2].reshape(-1, 2)
         ax.plot(line[:, 0], line[:, 1], color=colour, lw=1.4, label=label if leg == 0 else None, zorder=2)
         for joint in range(3):
@@ -261,7 +258,7 @@ def animate(answer: FollowedPath, ax: Axes | None, *, frames: int, interval: flo
 
 
 def _joints_at(robot: Manipulator, pose: Points, inputs: Points) -> Points:
-    actuated = np.array(_actuated(robot))
+    actuated = robot._actuated()
 
     def off(joints: Points) -> float:
         values = joints[actuated]
@@ -372,20 +369,45 @@ def coupler(answer: CouplerCurve, ax: Axes | None) -> Axes:
     return ax
 
 
-def region(answer: Region, ax: Axes | None) -> Axes:
-    """A workspace: filled, its boundary coloured by the limit that is active there."""
+def _filled(ax: Axes, outlines: list[Points], colour: str) -> None:
     from matplotlib.patches import PathPatch
     from matplotlib.path import Path
 
-    ax = _axes(ax)
-    outlines = [line for line in answer.outlines() if len(line) > 2]
-    if outlines:
+    closed = [line for line in outlines if len(line) > 2]
+    if closed:
         # One path: holes run the other way round and stay empty.
-        patch = PathPatch(Path.make_compound_path(*(Path(line, closed=True) for line in outlines)), fc=COLOURS[1], alpha=0.15, lw=0)
-        ax.add_patch(patch)
+        whole = Path.make_compound_path(*(Path(line, closed=True) for line in closed))
+        ax.add_patch(PathPatch(whole, fc=colour, alpha=0.15, lw=0))
+
+
+def region(answer: Region, ax: Axes | None, label: str | None) -> Axes:
+    """A workspace: filled, its boundary coloured by the limit that is active there, or in one colour among others."""
+    ax = _axes(ax)
+    outlines = answer.outlines()
+    if label is None:
+        _filled(ax, outlines, COLOURS[1])
+        _by_limit(ax, answer, outlines)
+        isolated = COLOURS[0]
+        ax.set_title(f"{answer.kind}: " + (f"area {answer.area:.8g}" if answer.components else "empty"))
+    else:
+        isolated = _colour(len(ax.get_legend_handles_labels()[1]))
+        _filled(ax, outlines, isolated)
+        for place, line in enumerate(outlines):
+            ax.plot(*line.T, color=isolated, lw=1.6, label=None if place else label)
+        if not outlines:
+            ax.plot([], [], color=isolated, lw=1.6, label=f"{label} (empty)")
+        ax.legend(fontsize="small")
+    for part in answer.isolated:
+        if part.at is not None:
+            ax.plot(*part.at, ".", color=isolated)
+    ax.autoscale_view()
+    return ax
+
+
+def _by_limit(ax: Axes, answer: Region, outlines: list[Points]) -> None:
     names = list(dict.fromkeys(", ".join(arc.active) for loop in answer.loops for arc in loop.arcs))
     labelled: set[str] = set()
-    for loop, line in zip(answer.loops, answer.outlines(), strict=True):
+    for loop, line in zip(answer.loops, outlines, strict=True):
         begin = 0
         for arc in loop.arcs:
             count = (2 if arc.curve == "line" else POINTS) - 1
@@ -396,13 +418,24 @@ def region(answer: Region, ax: Axes | None) -> Axes:
             labelled.add(name)
     for flat in answer._shape.separating(POINTS):
         ax.plot(*np.asarray(flat).reshape(-1, 2).T, color="#8a949e", lw=0.8, ls="--")
-    for part in answer.isolated:
-        if part.at is not None:
-            ax.plot(*part.at, ".", color=COLOURS[0])
     if 0 < len(names) <= MOST_NAMED:
         ax.legend(fontsize="x-small")
-    ax.set_title(f"{answer.kind}: " + (f"area {answer.area:.8g}" if answer.components else "empty"))
-    ax.autoscale_view()
+
+
+def slices(answer: Region, ax: Axes | None) -> Axes:
+    """The slices of a stack in space, orientation upwards."""
+    if ax is None:
+        import matplotlib.pyplot
+
+        ax = matplotlib.pyplot.figure(layout="constrained").add_subplot(projection="3d")
+    space: Any = ax
+    stack = answer.stack
+    for one, outlines in zip(stack.slices if stack else (), answer.slice_outlines(), strict=True):
+        for line in outlines:
+            space.plot(*line.T, one.phi, color=COLOURS[1], lw=1.0)
+    space.set(xlabel="x", ylabel="y", zlabel="φ (rad)")
+    if stack is not None:
+        space.set_title(f"volume {stack.volume:.8g}")
     return ax
 
 
@@ -449,6 +482,18 @@ def tilt_section(answer: TiltMap, section: int, ax: Axes | None) -> Axes:
     )
     ax.figure.colorbar(image, ax=ax, label="largest tilt (°)")
     ax.set_title(f"z = {answer.sections[section].z:.6g}")
+    return ax
+
+
+def determinants(answer: DeterminantCurves, ax: Axes | None) -> Axes:
+    """det J over the elevations of a design."""
+    ax = _axes(ax, equal=False)
+    for place, values in enumerate(answer.determinants):
+        ax.plot(np.degrees(answer.elevations), values, color=_colour(place), lw=1.4, label=f"pose {place + 1}")
+    ax.axhline(0.0, color="#8a949e", lw=0.8)
+    ax.set(xlabel="elevation (°)", ylabel="det J")
+    ax.legend(fontsize="small")
+    ax.set_title(answer._title())
     return ax
 
 

@@ -81,16 +81,13 @@ class Report:
         return hash(self.to_json())
 
     def __repr__(self) -> str:
-        return "\n".join(part for part in (self._title(), _text_table(self._table()), self._summary()) if part)
+        return "\n".join(part for part in (self._title(), text_table(self._table()), self._summary()) if part)
 
     def _repr_svg_(self) -> str | None:
         return self.svg()
 
     def _repr_html_(self) -> str:
-        drawing = self.svg()
-        picture = "" if drawing is None else f"<img alt='{html.escape(self._title())}' src='{_data_uri(drawing)}'>"
-        rows = _html_table(self._table())
-        return f"<div><b>{html.escape(self._title())}</b>{picture}{rows}<p>{html.escape(self._summary())}</p></div>"
+        return block(self._title(), self._table(), self._summary(), self.svg())
 
     # What a kind of result says of itself.
 
@@ -142,7 +139,8 @@ def convert(hint: Any, value: Any) -> Any:
     if hint in (FloatArray, ComplexArray):
         return _array(hint, value)
     if origin is tuple:
-        return tuple(convert(arguments[0], item) for item in value)
+        # A report may leave out a list that is empty.
+        return tuple(convert(arguments[0], item) for item in value or ())
     if dataclasses.is_dataclass(hint):
         assert isinstance(hint, type)
         return hint(**fields_of(hint, value))
@@ -174,11 +172,19 @@ def numbers(values: typing.Iterable[float]) -> str:
     return ", ".join(number(value) for value in values)
 
 
-def _text_table(table: list[list[str]]) -> str:
+def text_table(table: list[list[str]]) -> str:
+    """A table as aligned columns."""
     if not table:
         return ""
     widths = [max(len(row[column]) for row in table) for column in range(len(table[0]))]
     return "\n".join("  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in table)
+
+
+def block(title: str, table: list[list[str]], summary: str = "", drawing: str | None = None) -> str:
+    """A result in a notebook: title, drawing, table, summary."""
+    picture = "" if drawing is None else f"<img alt='{html.escape(title)}' src='{_data_uri(drawing)}'>"
+    text = f"<p>{html.escape(summary)}</p>" if summary else ""
+    return f"<div><b>{html.escape(title)}</b>{picture}{_html_table(table)}{text}</div>"
 
 
 def _html_table(table: list[list[str]]) -> str:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _assur
-from ._arrays import FloatArray, number as one_number, read_only
+from ._arrays import MOST_POINTS, FloatArray, number as one_number, read_only, whole
 from ._problems import Problem, ProblemLike
 from ._report import ComplexArray, Report, number, result
 from .errors import InputError
@@ -380,7 +380,8 @@ class CouplerCurve(Report):
     def polygons(self, points: int = 400) -> list[NDArray[np.float64]]:
         """The curve as polygons of about so many points each, shape ``(n, 2)``, circuit by circuit."""
         assert isinstance(self._origin, Problem)
-        flat = _assur.coupler_polygons(self._origin.text, self._origin.name, points)
+        count = whole("points", points, 3, MOST_POINTS)
+        flat = _assur.coupler_polygons(self._origin.text, self._origin.name, count)
         return [np.asarray(piece).reshape(-1, 2) for piece in flat]
 
     def plot(self, ax: Axes | None = None) -> Axes:

@@ -4,23 +4,24 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal, overload
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from . import _assur
-from ._arrays import FloatArray, number, one_or_rows, optional_vector, rows, vector
+from ._arrays import FloatArray, number, one_or_rows, optional_vector, rows, spread, vector, whole
 from ._problems import Problem
-from ._report import Report, result
+from ._report import Report, block, result
 from .claims import Verification
 from .errors import InputError
 from .loci import SingularityLoci
 from .modes import AssemblyModes, ModesBatch
 from .motion import Velocity, WorkingModes
 from .paths import FollowedPath
+from .poses import VelocityBatch, WorkingModesBatch
 from .workspaces import Region
 
 __all__ = ["Manipulator"]
@@ -146,13 +147,10 @@ class Manipulator:
         return document
 
     def _repr_html_(self) -> str:
-        import html
-
         check = self.check()
         bound = "" if check["degree_bound"] is None else f", at most {check['degree_bound']} assembly modes"
-        remarks = "".join(f"<li>{html.escape(remark['text'])}</li>" for remark in check["remarks"])
-        what = f"{html.escape(check['family'])}, locked {html.escape(check['group'] or 'no triad')}{bound}"
-        return f"<div><b>{html.escape(self.title)}</b>: {what}<ul>{remarks}</ul></div>"
+        remarks = [["remark"], *([remark["text"]] for remark in check["remarks"])] if check["remarks"] else []
+        return block(self.title, remarks, f"{check['family']}, locked {check['group'] or 'no triad'}{bound}")
 
     def __repr__(self) -> str:
         return f"Manipulator({self.title!r}, {self.family})"
@@ -219,26 +217,56 @@ class Manipulator:
         """:meth:`forward` of one row, proved: a box around every mode that holds it and no other."""
         return result(AssemblyModes, self._model.forward(vector("inputs", inputs, 3), True), self)
 
-    def inverse(self, pose: ArrayLike) -> WorkingModes:
-        """Every working mode of a pose.
+    @overload
+    def inverse(self, pose: list[float] | tuple[float, float, float]) -> WorkingModes: ...
+    @overload
+    def inverse(self, pose: ArrayLike) -> Any: ...
+    def inverse(self, pose: ArrayLike) -> Any:
+        """Every working mode of a pose, or of many.
 
         Parameters
         ----------
-        pose : array_like, shape (3,)
-            ``x, y, phi`` of the platform in the base frame; ``phi`` in radians.
+        pose : array_like, shape (3,) or (n, 3)
+            ``x, y, phi`` of the platform in the base frame; ``phi`` in radians. A C-contiguous float64 array is read where it is.
 
         Returns
         -------
         WorkingModes
-            Without modes where a leg does not reach, with how far it misses.
+            For one pose; without modes where a leg does not reach, with how far it misses.
+        WorkingModesBatch
+            For ``(n, 3)``: joint values ``(n, modes, legs, 3)``, masked where a row has no such mode, on all processors. A row that is not
+            finite is masked and has its reason in ``errors``.
 
         Raises
         ------
         InputError
-            A wrong shape, or a pose that is not finite.
-        """
-        return result(WorkingModes, self._model.inverse(vector("pose", pose, 3)), self)
+            A wrong shape or dtype; for one pose also numbers that are not finite.
 
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> robot, inputs = assur.Manipulator.of_family("3-RPR")
+        >>> many = robot.inverse(np.array([[5.5, 4.0, 0.3], [5.0, 4.0, 0.2]]))
+        >>> many.inputs[:, many.place("+++")].shape
+        (2, 3)
+        """
+        given = one_or_rows("pose", pose, 3)
+        if isinstance(given, list):
+            return result(WorkingModes, self._model.inverse(given), self)
+        return WorkingModesBatch._of(given, self._model.inverse_batch(given), self._actuated())
+
+    @overload
+    def velocity(
+        self,
+        pose: list[float] | tuple[float, float, float],
+        mode: str | None = None,
+        *,
+        rates: ArrayLike | None = None,
+        accelerations: ArrayLike | None = None,
+        wrench: ArrayLike | None = None,
+        length: float | None = None,
+    ) -> Velocity: ...
+    @overload
     def velocity(
         self,
         pose: ArrayLike,
@@ -248,36 +276,70 @@ class Manipulator:
         accelerations: ArrayLike | None = None,
         wrench: ArrayLike | None = None,
         length: float | None = None,
-    ) -> Velocity:
+    ) -> Any: ...
+    def velocity(
+        self,
+        pose: ArrayLike,
+        mode: str | None = None,
+        *,
+        rates: ArrayLike | None = None,
+        accelerations: ArrayLike | None = None,
+        wrench: ArrayLike | None = None,
+        length: float | None = None,
+    ) -> Any:
         """The two matrices of a pose, its kind of singularity, and its motion and forces.
 
         Parameters
         ----------
-        pose : array_like, shape (3,)
+        pose : array_like, shape (3,) or (n, 3)
             ``x, y, phi``.
         mode : str, optional
             The working mode, as ``"+-+"``; without it the only one, or the only one within the limits.
-        rates, accelerations : array_like, shape (3,), optional
+        rates : array_like, shape (3,) or (n, 3), optional
             Of the platform or of the actuators: answered both ways. Per unit of time, angles in radians.
+        accelerations : array_like, shape (3,), optional
+            The same; of one pose only.
         wrench : array_like, shape (3,), optional
-            Force and moment on the platform, about its origin.
+            Force and moment on the platform, about its origin; of one pose only.
         length : float, optional
             What weighs turning against moving; the platform's size without it.
+
+        Returns
+        -------
+        Velocity
+            For one pose.
+        VelocityBatch
+            For ``(n, 3)``: matrices, determinants, singularities and rates as arrays, on all processors. A row that cannot be asked is
+            masked and has its reason in ``errors``.
 
         Raises
         ------
         InputError
-            A leg that does not reach, a mode that is none or could be several, numbers that are not finite.
+            A wrong shape or dtype, a mode that is none; for one pose also a leg that does not reach, a mode that could be several, numbers
+            that are not finite.
         """
-        answer = self._model.velocity(
-            vector("pose", pose, 3),
-            mode,
-            optional_vector("rates", rates, 3),
-            optional_vector("accelerations", accelerations, 3),
-            optional_vector("wrench", wrench, 3),
-            None if length is None else number("length", length),
-        )
-        return result(Velocity, answer, self)
+        given = one_or_rows("pose", pose, 3)
+        size = None if length is None else number("length", length)
+        if isinstance(given, list):
+            answer = self._model.velocity(
+                given,
+                mode,
+                optional_vector("rates", rates, 3),
+                optional_vector("accelerations", accelerations, 3),
+                optional_vector("wrench", wrench, 3),
+                size,
+            )
+            return result(Velocity, answer, self)
+        for what, value in (("accelerations", accelerations), ("wrench", wrench)):
+            if value is not None:
+                raise InputError(f"{what}: of one pose only, shape (3,)", field=what)
+        moving = np.empty((0, 3)) if rates is None else spread("rates", rates, len(given), 3)
+        batch = self._model.velocity_batch(given, mode, moving, size)
+        return VelocityBatch._of(given, batch, rates is not None)
+
+    def _actuated(self) -> NDArray[np.bool_]:
+        """Whether each joint of each leg is actuated, shape ``(legs, 3)``."""
+        return np.array([[joint in leg["actuated"] for joint in (1, 2, 3)] for leg in self.check()["legs"]])
 
     def singularities(
         self, phi: float, mode: str | None = None, *, map: str | None = None, polynomial: bool = True
@@ -328,6 +390,9 @@ class Manipulator:
         upper: float | None = None,
         mode: str = "both",
         assembly: ArrayLike | None = None,
+        slices: int | None = None,
+        gradient: str | Sequence[str] = (),
+        optimise: Mapping[str, tuple[float, float]] | None = None,
     ) -> Region:
         """Where the reference point can reach, exactly; of legs RPR, RRR and PRR in any mixture.
 
@@ -342,18 +407,31 @@ class Manipulator:
             ``"both"``, or a sign for each leg.
         assembly : array_like, shape (3,), optional
             With ``"maximal"``: only what the assembly in this pose reaches without being taken apart.
+        slices : int, optional
+            So many constant-orientation workspaces over the orientations of the kind, and the volume of them all: ``Region.stack``.
+        gradient : str or sequence of str
+            Numbers of the design, as in :meth:`with_numbers`, by which the area is derived: ``Region.gradient``.
+        optimise : mapping from key to (low, high), optional
+            Numbers of the design with bounds within which the largest area is sought: ``Region.optimum``. Some hundred workspaces.
 
         Raises
         ------
         InputError
-            A leg that is not covered or not bounded, angles that the kind does not take or lacks.
+            A leg that is not covered or not bounded, angles that the kind does not take or lacks, a key that names no number.
         """
-        angles = _angles_of(kind, phi, lower, upper)
         pose = optional_vector("assembly", assembly, 3)
         if pose is not None and kind != "maximal":
             raise InputError("assembly: goes with the kind maximal", field="assembly", value=kind)
-        question = (kind, angles, mode, pose)
-        answer, shape = self._model.workspace(*question)
+        question: dict[str, Any] = {
+            "kind": kind,
+            "angles": _angles_of(kind, phi, lower, upper),
+            "mode": mode,
+            "assembly": pose,
+            "slices": None if slices is None else whole("slices", slices, 1, MOST_SLICES),
+            "gradient": [gradient] if isinstance(gradient, str) else list(gradient),
+            "optimise": [(key, _bounds(key, ends)) for key, ends in (optimise or {}).items()],
+        }
+        answer, shape = self._model.workspace(question)
         found = result(Region, answer, (self, question))
         # The cache of the property: what is there need not be made again.
         found.__dict__["_shape"] = shape
@@ -396,6 +474,17 @@ class Manipulator:
 
 #: The angles that each kind of workspace takes.
 _TAKES = {"constant": ("phi",), "maximal": (), "inclusive": ("lower", "upper"), "total": ("lower", "upper"), "dextrous": ()}
+
+
+#: Most slices of a stack.
+MOST_SLICES = 10_000
+
+
+def _bounds(key: str, ends: ArrayLike) -> list[float]:
+    low, high = vector(key, ends, 2)
+    if not (np.isfinite(low) and np.isfinite(high) and low < high):
+        raise InputError(f"optimise: {key}: bounds {low}, {high} must be finite and ascend", field="optimise", value=(low, high))
+    return [low, high]
 
 
 def _angles_of(kind: str, phi: float | None, lower: float | None, upper: float | None) -> list[float]:

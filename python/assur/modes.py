@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from . import _assur
 from ._arrays import FloatArray, read_only
+from ._batch import Batch, RowErrors
 from ._report import ComplexArray, Report, number, numbers
-from .errors import InputError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -298,42 +298,12 @@ class AssemblyModes(Report):
         return f"{self.status}; {self.account}{special}{proof}"
 
 
-class RowErrors(Mapping[int, InputError]):
-    """The rows of a batch that could not be asked, by number from 0, each with its reason as an exception."""
-
-    def __init__(self, errors: _assur.RowErrors | dict[int, InputError]) -> None:
-        self._errors = errors
-
-    def __len__(self) -> int:
-        return len(self._errors)
-
-    def __iter__(self) -> Iterator[int]:
-        if isinstance(self._errors, dict):
-            return iter(self._errors)
-        return (int(row) for row in self._errors.rows())
-
-    def __getitem__(self, row: int) -> InputError:
-        error = self._errors.get(row) if row >= 0 else None
-        if error is None:
-            raise KeyError(row)
-        error.row = row
-        return error
-
-    def __repr__(self) -> str:
-        shown = [f"{row}: {self[row]}" for row, _ in zip(self, range(3), strict=False)]
-        more = ", ..." if len(self) > len(shown) else ""
-        return "{" + ", ".join(shown) + more + "}"
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return RowErrors, (dict(self.items()),)
-
-
 #: Names of the codes of :attr:`ModesBatch.statuses`.
 STATUSES = ("complete", "self_motion", "undecided", "error")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class ModesBatch:
+class ModesBatch(Batch):
     """Every real assembly mode for many rows of inputs.
 
     A row that cannot be asked (not finite, outside limits) is masked throughout and has its reason in ``errors``. Each row's count is
@@ -388,11 +358,12 @@ class ModesBatch:
         """The poses of one row, shape ``(count, 3)``."""
         return self._poses[row, : self.counts[row]]
 
-    def __repr__(self) -> str:
+    def _title(self) -> str:
+        return f"Assembly modes of {len(self)} rows"
+
+    def _table(self) -> list[list[str]]:
         tally = np.bincount(self.counts[self.statuses != STATUSES.index("error")], minlength=1)
-        shown = ", ".join(f"{rows} with {count}" for count, rows in enumerate(tally) if rows)
-        errors = f", {len(self.errors)} with an error {self.errors!r}" if self.errors else ""
-        return f"ModesBatch of {len(self)} rows; modes: {shown or 'none'}{errors}"
+        return [["modes", "rows"], *([str(count), str(rows)] for count, rows in enumerate(tally) if rows)]
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draws the positions of all modes of all rows, coloured by orientation; returns the axes."""

@@ -10,6 +10,7 @@ import hashlib
 import itertools
 import json
 import os
+import pickle
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -18,6 +19,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ._report import block
 from .errors import AssurError, InputError
 from .manipulator import Manipulator
 
@@ -33,6 +35,8 @@ Measure: TypeAlias = "str | Callable[[Manipulator], Measured]"
 
 #: Designs in a chunk: some seconds' work of the dearer measures, and files of a handy size.
 CHUNK = 256
+#: Rows that a notebook shows.
+MOST_SHOWN = 20
 #: The file that says what a dataset is the answer to.
 _MANIFEST = "sweep.json"
 
@@ -193,9 +197,10 @@ def _solve(first: int, designs: list[Design], measures: tuple[Measure, ...]) -> 
     return [_row(first + place, design, measures) for place, design in enumerate(designs)]
 
 
-def _solve_arrow(first: int, designs: list[Design], measures: tuple[Measure, ...]) -> Any:
+def _solve_arrow(first: int, designs: list[Design], measures: bytes) -> Any:
     """A chunk on a worker: its rows as an Arrow table."""
-    return _arrow(_solve(first, designs, measures))
+    # Unpacked here and not on the way: a function that this worker cannot import is then the task's error, not the end of its connection.
+    return _arrow(_solve(first, designs, pickle.loads(measures)))
 
 
 # --- the sweep -----------------------------------------------------------------------------------------------------------------------
@@ -222,10 +227,19 @@ class Sweep:
     def __getitem__(self, name: str) -> NDArray[Any]:
         return self.columns[name]
 
-    def __repr__(self) -> str:
+    def _title(self) -> str:
         errors = sum(error is not None for error in self.columns["error"])
         where = "" if self.path is None else f", in {self.path}"
         return f"Sweep of {len(self)} designs ({errors} with an error): {', '.join(self.columns)}{where}"
+
+    def __repr__(self) -> str:
+        return self._title()
+
+    def _repr_html_(self) -> str:
+        shown = min(len(self), MOST_SHOWN)
+        rows = [["" if (x := values[row]) is None else str(x) for values in self.columns.values()] for row in range(shown)]
+        more = f"{len(self) - shown} more rows" if len(self) > shown else ""
+        return block(self._title(), [list(self.columns), *rows], more)
 
     def to_arrow(self) -> Any:
         """The rows as a pyarrow table."""
@@ -286,7 +300,8 @@ def sweep(
         ``"area:maximal"``, ``"area:constant:0.3"``, ``"holes:inclusive:0:1.5"``; or functions of a manipulator that answer a mapping from
         names to numbers or texts. Angles in radians.
     client : dask.distributed.Client, optional
-        A Dask client, with any scheduler behind it; without it all is done in this process.
+        A Dask client, with any scheduler behind it; without it all is done in this process. Its workers need this package; functions of a
+        module that they cannot import are sent whole after ``cloudpickle.register_pickle_by_value(module)``, those of a notebook always.
     output : path, optional
         A folder for the results as a Parquet dataset, a file for each chunk. If it holds some already, of the same sweep, those are kept and
         the rest is done.
@@ -341,11 +356,13 @@ def _design(design: Design | Manipulator) -> Design:
 def _on_cluster(
     client: Any, designs: Sequence[Design | Manipulator], left: list[int], chunk: int, measures: tuple[Measure, ...], progress: bool
 ) -> Iterator[tuple[int, Any]]:
+    import cloudpickle
     import distributed
 
+    packed = cloudpickle.dumps(measures)
     # Not pure: the same chunk asked for twice, by two sweeps, is done twice and shared by none.
     futures = {
-        client.submit(_solve_arrow, first, _part(designs, first, chunk), measures, pure=False): first for first in left
+        client.submit(_solve_arrow, first, _part(designs, first, chunk), packed, pure=False): first for first in left
     }
     if progress:
         distributed.progress(list(futures))

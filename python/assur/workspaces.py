@@ -11,21 +11,37 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _assur
-from ._arrays import FloatArray, rows
+from ._arrays import MOST_POINTS, FloatArray, rows, whole
 from ._report import Report, number
 from .errors import InputError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["BoundaryArc", "BoundaryLoop", "Isolated", "Memberships", "Region"]
+__all__ = ["BoundaryArc", "BoundaryLoop", "Isolated", "Memberships", "Optimum", "Region", "Slice", "Stack"]
 
 #: Points along each arc where an outline is made of straight pieces.
 POINTS = 64
 
 
 @dataclass(frozen=True, eq=False)
-class BoundaryArc:
+class _OnCurve:
+    """A piece of a curve, and what defines the curve: ``"point"``, ``"line"``, ``"circle"``, ``"ellipse"`` or ``"coupler"``."""
+
+    curve: str
+    active: tuple[str, ...]
+    center: FloatArray | None
+    radius: float | None
+    start_angle: float | None
+    end_angle: float | None
+    pair: list[dict[str, Any]] | None
+    sigma: float | None
+    phi_start: float | None
+    phi_end: float | None
+
+
+@dataclass(frozen=True, eq=False)
+class BoundaryArc(_OnCurve):
     """A piece of boundary, the region on its left.
 
     Attributes
@@ -41,18 +57,8 @@ class BoundaryArc:
         Of an ellipse or coupler curve: the two limits held at once, and the orientations at its ends.
     """
 
-    curve: str
     start: FloatArray
     end: FloatArray
-    active: tuple[str, ...]
-    center: FloatArray | None
-    radius: float | None
-    start_angle: float | None
-    end_angle: float | None
-    pair: list[dict[str, Any]] | None
-    sigma: float | None
-    phi_start: float | None
-    phi_end: float | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,22 +70,81 @@ class BoundaryLoop:
 
 
 @dataclass(frozen=True, eq=False)
-class Isolated:
-    """A point (``at``) or curve of the workspace that has no area."""
+class Isolated(_OnCurve):
+    """A point (``at``) or curve (``start``, ``end``) of the workspace that has no area."""
 
-    curve: str
-    active: tuple[str, ...]
     at: FloatArray | None
     start: FloatArray | None
     end: FloatArray | None
-    center: FloatArray | None
-    radius: float | None
-    start_angle: float | None
-    end_angle: float | None
-    pair: list[dict[str, Any]] | None
-    sigma: float | None
-    phi_start: float | None
-    phi_end: float | None
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class _Measured:
+    """What is measured of a region of the plane."""
+
+    area: float
+    perimeter: float
+    centroid: FloatArray | None
+    bbox: FloatArray | None
+    components: int
+    holes: int
+    loops: tuple[BoundaryLoop, ...]
+    isolated: tuple[Isolated, ...]
+    unclosed: tuple[BoundaryArc, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Slice(_Measured):
+    """The constant-orientation workspace of one orientation, radians, measured as :class:`Region` is."""
+
+    phi: float
+
+
+@dataclass(frozen=True, eq=False)
+class Stack:
+    """Slices over a range of orientations.
+
+    Attributes
+    ----------
+    lower, upper : float
+        The range, radians.
+    volume : float
+        Of all poses with these orientations, area times radians; ``volume_error`` is an estimate of its error.
+    slices : tuple of Slice
+        At evenly spaced orientations, both ends included (of a whole turn only the first).
+    """
+
+    lower: float
+    upper: float
+    volume: float
+    volume_error: float
+    slices: tuple[Slice, ...]
+
+    _renamed: ClassVar[Mapping[str, str]] = {"from": "lower", "to": "upper"}
+
+
+@dataclass(frozen=True, eq=False)
+class Optimum:
+    """The best design that was found; a better one may lie between those that were tried.
+
+    Attributes
+    ----------
+    values : dict
+        Its numbers by their keys; radians for angles. ``robot.with_numbers(optimum.values)`` is the design.
+    area : float
+    gradient : dict
+        The area's derivatives by the numbers: near zero inside the bounds, or pointing outwards at one.
+    area_before : float
+        The area of the design that was given.
+    evaluations : int
+        How many designs were measured.
+    """
+
+    values: dict[str, float]
+    area: float
+    gradient: dict[str, float]
+    area_before: float
+    evaluations: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,7 +166,7 @@ class Memberships:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Region(Report):
+class Region(_Measured, Report):
     """A workspace of a manipulator's reference point, exactly.
 
     Attributes
@@ -123,10 +188,18 @@ class Region(Report):
         Outer ones run counter-clockwise, holes clockwise.
     isolated : tuple of Isolated
         Points and curves of no area.
+    unclosed : tuple of BoundaryArc
+        Pieces that could not be joined to loops, where digits ran out; ``status`` is then ``"undecided"``.
     separating : tuple of BoundaryArc
         Arcs inside where a way of reaching the places ends.
     assembly : ndarray, shape (3,), or None
         The pose whose assembly alone counts, where one was named.
+    stack : Stack or None
+        Slices over the orientations, where they were asked for.
+    gradient : dict or None
+        The area's derivatives by numbers of the design, where they were asked for: area over length, or over radians.
+    optimum : Optimum or None
+        The design with the largest area found, where it was asked for.
     """
 
     kind: str
@@ -135,16 +208,11 @@ class Region(Report):
     upper: float | None
     mode: str
     status: str
-    area: float
-    perimeter: float
-    centroid: FloatArray | None
-    bbox: FloatArray | None
-    components: int
-    holes: int
-    loops: tuple[BoundaryLoop, ...]
-    isolated: tuple[Isolated, ...]
     separating: tuple[BoundaryArc, ...]
     assembly: FloatArray | None
+    stack: Stack | None
+    gradient: dict[str, float] | None
+    optimum: Optimum | None
 
     _renamed: ClassVar[Mapping[str, str]] = {"from": "lower", "to": "upper"}
 
@@ -152,8 +220,12 @@ class Region(Report):
     def _shape(self) -> _assur.Shape:
         """What the library knows of the region; made again where the result has travelled."""
         robot, question = self._origin
-        shape: _assur.Shape = robot._model.workspace(*question)[1]
+        shape: _assur.Shape = robot._model.workspace(question)[1]
         return shape
+
+    def __getstate__(self) -> dict[str, Any]:
+        # The shape lives in this process only; where the result goes it is made again when it is asked.
+        return {name: value for name, value in self.__dict__.items() if name != "_shape"}
 
     def memberships(self, points: ArrayLike) -> Memberships:
         """Whether places are inside, how far from the boundary, and what binds there.
@@ -182,7 +254,19 @@ class Region(Report):
 
     def outlines(self, points: int = POINTS) -> list[NDArray[np.float64]]:
         """The loops as closed polygons, ``points`` to each curved arc, in the order of ``loops``; each of shape ``(n, 2)``."""
-        return [np.asarray(flat).reshape(-1, 2) for flat in self._shape.outlines(points)]
+        return [_pairs(flat) for flat in self._shape.outlines(_fine(points))]
+
+    def slice_outlines(self, points: int = POINTS) -> list[list[NDArray[np.float64]]]:
+        """The loops of each slice of the stack as closed polygons, as :meth:`outlines`; empty without a stack."""
+        return [[_pairs(flat) for flat in loops] for loops in self._shape.slices(_fine(points))]
+
+    def to_dxf(self) -> str:
+        """The boundary as a DXF drawing (release 12), lines, arcs and circles exact; what ``--dxf`` writes."""
+        return self._shape.dxf()
+
+    def to_csv(self) -> str:
+        """Points along the boundary as CSV, ``part,loop,arc,curve,active,x,y``; what ``--csv`` writes."""
+        return self._shape.csv()
 
     def to_shapely(self, points: int = POINTS) -> Any:
         """The region as a shapely ``MultiPolygon``, curves as polygons of ``points`` each; needs shapely."""
@@ -197,11 +281,25 @@ class Region(Report):
         parts = [part for part in getattr(found, "geoms", [found]) if part.geom_type == "Polygon" and not part.is_empty]
         return shapely.MultiPolygon(parts)
 
-    def plot(self, ax: Axes | None = None) -> Axes:
-        """Draws the region with its boundary, arc by arc as they are limited; returns the axes, shows nothing."""
+    def plot(self, ax: Axes | None = None, *, label: str | None = None) -> Axes:
+        """Draws the region; returns the axes, shows nothing.
+
+        Parameters
+        ----------
+        ax : matplotlib Axes, optional
+            Where to draw; without it new axes are made.
+        label : str, optional
+            With it the region is one of several over one another, in one colour under this name; without it each arc has the colour of its limits.
+        """
         from . import _plot
 
-        return _plot.region(self, ax)
+        return _plot.region(self, ax, label)
+
+    def plot_slices(self, ax: Axes | None = None) -> Axes:
+        """Draws the slices of the stack over one another, ``phi`` upwards, into axes in space; returns them, shows nothing."""
+        from . import _plot
+
+        return _plot.slices(self, ax)
 
     def _title(self) -> str:
         asked = "" if self.phi is None else f" at phi = {number(self.phi)}"
@@ -218,4 +316,18 @@ class Region(Report):
 
     def _summary(self) -> str:
         pieces = f"{self.components} components, {self.holes} holes"
-        return f"area {number(self.area)}, perimeter {number(self.perimeter)}, {pieces}" if self.components else "empty"
+        parts = [f"area {number(self.area)}, perimeter {number(self.perimeter)}, {pieces}" if self.components else "empty"]
+        if self.stack is not None:
+            parts.append(f"volume {number(self.stack.volume)} over {len(self.stack.slices)} slices")
+        parts += [f"d area / d {key} {number(slope)}" for key, slope in (self.gradient or {}).items()]
+        if self.optimum is not None:
+            parts.append(f"largest area found {number(self.optimum.area)}")
+        return "; ".join(parts)
+
+
+def _fine(points: int) -> int:
+    return whole("points", points, 2, MOST_POINTS)
+
+
+def _pairs(flat: list[float]) -> NDArray[np.float64]:
+    return np.asarray(flat).reshape(-1, 2)

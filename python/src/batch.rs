@@ -1,6 +1,6 @@
 //! Many rows at once, array to array.
 
-use assur::{LockError, Manipulator, ModesPlaces, Status};
+use assur::{KinematicsError, LockError, Manipulator, ModesPlaces, Status};
 use numpy::{PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
@@ -23,10 +23,18 @@ pub struct Batch {
     errors: Py<RowErrors>,
 }
 
-/// The rows that could not be asked, each with its reason.
+/// Why a row could not be asked; told in words only when somebody looks.
+pub enum RowError {
+    /// Inputs.
+    Inputs(LockError),
+    /// A pose.
+    Pose(KinematicsError),
+}
+
+/// The rows that could not be asked, ascending, each with its reason.
 #[pyclass(frozen, module = "assur._assur")]
 pub struct RowErrors {
-    errors: Vec<(usize, LockError)>,
+    pub(crate) errors: Vec<(usize, RowError)>,
 }
 
 #[pymethods]
@@ -43,7 +51,11 @@ impl RowErrors {
     /// The exception that a row stands for; none for a row without.
     fn get<'py>(&self, py: Python<'py>, row: usize) -> PyResult<Option<Bound<'py, PyAny>>> {
         let found = self.errors.binary_search_by_key(&row, |(row, _)| *row).ok();
-        found.map(|place| Refused::input(self.errors[place].1.clone()).exception(py)).transpose()
+        let reason = |place: usize| match &self.errors[place].1 {
+            RowError::Inputs(error) => Refused::input(error.clone()),
+            RowError::Pose(error) => Refused::input(error.clone()),
+        };
+        found.map(|place| reason(place).exception(py)).transpose()
     }
 }
 
@@ -64,7 +76,7 @@ pub fn forward(py: Python<'_>, robot: &Manipulator, inputs: PyReadonlyArray2<'_,
     let poses = zeros(vec![rows, MOST_MODES, 3], "f8")?.cast_into::<PyArray3<f64>>()?;
     let counts = zeros(vec![rows], "u1")?.cast_into::<PyArray1<u8>>()?;
     let statuses = zeros(vec![rows], "u1")?.cast_into::<PyArray1<u8>>()?;
-    let mut errors: Vec<(usize, LockError)> = Vec::new();
+    let mut errors = Vec::new();
     {
         let inputs = inputs.as_slice()?;
         let (mut poses, mut counts, mut statuses) = (poses.readwrite(), counts.readwrite(), statuses.readwrite());
@@ -86,7 +98,7 @@ pub fn forward(py: Python<'_>, robot: &Manipulator, inputs: PyReadonlyArray2<'_,
                 codes.iter_mut().zip(&*found).for_each(|(place, status)| *place = code(*status));
                 refused
             });
-            errors.extend(refused.into_iter().map(|(row, error)| (first + row, error)));
+            errors.extend(refused.into_iter().map(|(row, error)| (first + row, RowError::Inputs(error))));
             (poses, counts, statuses) = (later, rest, others);
             py.check_signals()?;
         }

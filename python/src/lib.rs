@@ -4,6 +4,7 @@
 mod answer;
 mod batch;
 mod model;
+mod poses;
 mod problems;
 mod refused;
 mod spatial;
@@ -21,9 +22,11 @@ mod _assur {
     #[pymodule_export]
     use crate::model::Model;
     #[pymodule_export]
+    use crate::poses::{MotionBatch, WaysBatch};
+    #[pymodule_export]
     use crate::problems::{coupler, coupler_polygons, group, triad};
     #[pymodule_export]
-    use crate::spatial::{HanaModel, TripodModel};
+    use crate::spatial::{HanaModel, MultipteronModel, TripodModel, determinant};
     #[pymodule_export]
     use crate::workspace::Shape;
 

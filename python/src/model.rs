@@ -15,8 +15,9 @@ use pyo3::prelude::*;
 
 use crate::answer::Answer;
 use crate::batch::{self, Batch};
+use crate::poses::{self, MotionBatch, WaysBatch};
 use crate::refused::Refused;
-use crate::workspace::{self, Shape};
+use crate::workspace::{self, Asked, Shape};
 
 /// A model file: a manipulator, and the unit its file writes angles in.
 #[pyclass(frozen, module = "assur._assur")]
@@ -116,6 +117,24 @@ impl Model {
         batch::forward(py, self.robot(), inputs)
     }
 
+    /// Every working mode of many rows.
+    fn inverse_batch(&self, py: Python<'_>, poses: PyReadonlyArray2<'_, f64>) -> PyResult<WaysBatch> {
+        poses::inverse(py, self.robot(), poses)
+    }
+
+    /// Matrices, singularities and rates of many rows.
+    #[pyo3(signature = (poses, mode, rates, length))]
+    fn velocity_batch(
+        &self,
+        py: Python<'_>,
+        poses: PyReadonlyArray2<'_, f64>,
+        mode: Option<&str>,
+        rates: PyReadonlyArray2<'_, f64>,
+        length: Option<f64>,
+    ) -> PyResult<MotionBatch> {
+        poses::velocity(py, self.robot(), poses, mode, rates, length)
+    }
+
     fn inverse(&self, py: Python<'_>, at: [f64; 3]) -> PyResult<Answer> {
         Ok(py.detach(|| {
             let answer = self.robot().inverse(&pose(at)).map_err(Refused::input)?;
@@ -187,16 +206,8 @@ impl Model {
     }
 
     /// The workspace of a kind.
-    #[pyo3(signature = (kind, angles, mode, assembly))]
-    fn workspace(
-        &self,
-        py: Python<'_>,
-        kind: &str,
-        angles: [f64; 3],
-        mode: &str,
-        assembly: Option<[f64; 3]>,
-    ) -> PyResult<(Answer, Shape)> {
-        Ok(py.detach(|| workspace::workspace(&self.file, kind, angles, mode, assembly))?)
+    fn workspace(&self, py: Python<'_>, asked: Asked) -> PyResult<(Answer, Shape)> {
+        Ok(py.detach(|| workspace::workspace(&self.file, &asked))?)
     }
 
     /// What is proved of the poses that a report claims.

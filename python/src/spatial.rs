@@ -1,15 +1,17 @@
-//! The two spatial robots. Angles in radians.
+//! The spatial robots. Angles in radians.
 
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use assur::exchange::{
-    AskedTilts, ErrorPlace, HanaFile, HanaTilts, TiltSections, TripodFile, hana_forward_json, hana_inverse_json,
-    hana_velocity_json, hana_workspace_json, tilt_json, tripod_forward_json, tripod_inverse_json, tripod_velocity_json,
+    AskedTilts, ErrorPlace, HanaFile, HanaTilts, MultipteronFile, TiltSections, TripodFile, hana_forward_json,
+    hana_inverse_json, hana_velocity_json, hana_workspace_json, multipteron_forward_json, multipteron_inverse_json,
+    tilt_json, tripod_determinant_json, tripod_forward_json, tripod_inverse_json, tripod_velocity_json,
 };
 use assur::nalgebra::{Matrix3, Vector3, Vector6};
 use assur::plot::PosedRobot;
-use assur::{ArcRegion, HanaMode, HanaPose, SpatialError, TripodError, TripodPose, WorkspaceArc};
+use assur::{ArcRegion, HanaMode, HanaPose, SpatialError, TripodDesign, TripodError, TripodPose, WorkspaceArc};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::answer::Answer;
@@ -297,6 +299,76 @@ impl TripodModel {
             Ok::<_, Refused>(Answer::drawn(json, move || {
                 assur::plot::draw_tilt_sections(&file.robot.name, low, high, cells, &found.maps)
             }))
+        })?)
+    }
+}
+
+/// `det J` over the elevations of a design (`inclined` or `upright`), a curve a pose.
+#[pyfunction]
+pub fn determinant(
+    py: Python<'_>,
+    design: &str,
+    distances: [f64; 2],
+    poses: Vec<Vec<f64>>,
+    range: [f64; 2],
+    points: usize,
+) -> PyResult<Answer> {
+    let known = [TripodDesign::Inclined, TripodDesign::Upright].into_iter().find(|known| known.name() == design);
+    let design =
+        known.ok_or_else(|| PyValueError::new_err(format!("design: \"{design}\" must be inclined or upright")))?;
+    Ok(py.detach(|| {
+        let curve = |pose: &Vec<f64>| {
+            let pose = tripod_pose(pose)?;
+            let points = design.determinant_curve(distances[0], distances[1], &pose, range, points);
+            Ok::<_, Refused>((pose, points.map_err(asked)?))
+        };
+        let curves = poses.iter().map(curve).collect::<Result<Vec<_>, _>>()?;
+        Ok::<_, Refused>(Answer::plain(tripod_determinant_json(design, distances, &curves)))
+    })?)
+}
+
+/// Tripteron, Quadrupteron or Hexapteron.
+#[pyclass(frozen, module = "assur._assur")]
+pub struct MultipteronModel {
+    file: MultipteronFile,
+}
+
+#[pymethods]
+impl MultipteronModel {
+    #[staticmethod]
+    fn parse(text: &str, name: &str) -> PyResult<Self> {
+        Ok(Self { file: MultipteronFile::parse(text, name).map_err(Refused::model)? })
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.file.name
+    }
+
+    /// `tripteron`, `quadrupteron` or `hexapteron`.
+    #[getter]
+    fn kind(&self) -> &'static str {
+        self.file.robot.name()
+    }
+
+    /// How many sliders there are.
+    #[getter]
+    fn degrees_of_freedom(&self) -> usize {
+        self.file.robot.degrees_of_freedom()
+    }
+
+    fn forward(&self, py: Python<'_>, inputs: Vec<f64>) -> PyResult<Answer> {
+        Ok(py.detach(|| {
+            let answer = self.file.robot.forward(&inputs).map_err(asked)?;
+            Ok::<_, Refused>(Answer::plain(multipteron_forward_json(&self.file.robot, &inputs, &answer)))
+        })?)
+    }
+
+    fn inverse(&self, py: Python<'_>, place: [f64; 3], turn: [f64; 3]) -> PyResult<Answer> {
+        let (place, turn) = (Vector3::from(place), Vector3::from(turn));
+        Ok(py.detach(|| {
+            let inputs = self.file.robot.inverse(&place, &turn).map_err(asked)?;
+            Ok::<_, Refused>(Answer::plain(multipteron_inverse_json(&self.file.robot, &place, &turn, &inputs)))
         })?)
     }
 }

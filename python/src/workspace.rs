@@ -1,12 +1,13 @@
 //! Workspaces: the report and drawing as everywhere, and the region itself, asked for places and outlines.
 
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use assur::exchange::{ModelFile, WorkspaceReport};
+use assur::exchange::{ModelFile, WorkspaceReport, workspace_csv, workspace_dxf};
 use assur::plane::PhiRange;
 use assur::plot::{WorkspaceLayer, draw_workspaces};
-use assur::workspace::{ArcCurve, BoundaryArc, Reach, Region, Workspace, WorkspaceKind, WorkspaceModes};
-use assur::{Manipulator, Pose};
+use assur::workspace::{ArcCurve, BoundaryArc, DesignChoice, Reach, Region, Workspace, WorkspaceKind, WorkspaceModes};
+use assur::{DesignError, DesignKey, DesignNumber, Manipulator, Pose};
 use numpy::{PyArray1, PyReadonlyArray2, ToPyArray};
 use pyo3::prelude::*;
 
@@ -18,6 +19,24 @@ use crate::refused::Refused;
 pub struct Shape {
     reach: Reach,
     workspace: Arc<Workspace>,
+    slices: Vec<Workspace>,
+}
+
+/// What is asked of a workspace, as on the command line; angles in radians.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct Asked {
+    kind: String,
+    /// `phi`, `from`, `to`; zero where the kind takes none.
+    angles: [f64; 3],
+    mode: String,
+    assembly: Option<[f64; 3]>,
+    /// How many slices, if any.
+    slices: Option<usize>,
+    /// Numbers of the design by which the area is derived.
+    gradient: Vec<String>,
+    /// Numbers of the design with their bounds, for the largest area.
+    optimise: Vec<(String, [f64; 2])>,
 }
 
 /// A kind by its name, as on the command line; angles in radians.
@@ -32,25 +51,55 @@ fn kind_of(name: &str, phi: f64, from: f64, to: f64) -> WorkspaceKind {
 }
 
 /// The workspace of a kind, or what one assembly reaches of the maximal one.
-pub fn workspace(
-    file: &Arc<ModelFile>,
-    kind: &str,
-    [phi, from, to]: [f64; 3],
-    mode: &str,
-    assembly: Option<[f64; 3]>,
-) -> Result<(Answer, Shape), Refused> {
-    let modes: WorkspaceModes = mode.parse().map_err(Refused::input)?;
-    let reach = file.manipulator.reach(&modes).map_err(Refused::input)?;
-    let found = match assembly {
+pub fn workspace(file: &Arc<ModelFile>, asked: &Asked) -> Result<(Answer, Shape), Refused> {
+    let robot = &file.manipulator;
+    let [phi, from, to] = asked.angles;
+    let modes: WorkspaceModes = asked.mode.parse().map_err(Refused::input)?;
+    let reach = robot.reach(&modes).map_err(Refused::input)?;
+    let kind = kind_of(&asked.kind, phi, from, to);
+    let found = match asked.assembly {
         Some([x, y, phi]) => reach.assembly(&Pose::new(x, y, phi)),
-        None => reach.workspace(&kind_of(kind, phi, from, to)),
+        None => reach.workspace(&kind),
     };
     let workspace = Arc::new(found.map_err(Refused::input)?);
-    let json = WorkspaceReport::new(&workspace, &modes, assembly, &[]).to_json();
-    let shape = Shape { reach: reach.clone(), workspace: workspace.clone() };
+    let mut report = WorkspaceReport::new(&workspace, &modes, asked.assembly, &[]);
+    let mut slices = Vec::new();
+    if let Some(count) = asked.slices {
+        let range = match kind {
+            WorkspaceKind::Constant { phi } => PhiRange { from: phi, width: 0.0 },
+            WorkspaceKind::Inclusive(range) | WorkspaceKind::Total(range) => range,
+            WorkspaceKind::Maximal | WorkspaceKind::Dextrous => PhiRange::between(0.0, TAU),
+        };
+        let stack = robot.workspace_stack(range, count, &modes).map_err(Refused::input)?;
+        report = report.with_stack(&stack);
+        slices = stack.slices;
+    }
+    for name in &asked.gradient {
+        let (name, numbers) = numbers(robot, name)?;
+        let slopes = robot.area_gradient(&workspace, &modes, &numbers).map_err(Refused::input)?;
+        report.gradient.insert(name, slopes.iter().sum());
+    }
+    if !asked.optimise.is_empty() {
+        let choice = |(name, bounds): &(String, [f64; 2])| {
+            let (name, numbers) = numbers(robot, name)?;
+            Ok::<_, Refused>((name, DesignChoice { numbers, bounds: *bounds }))
+        };
+        let chosen = asked.optimise.iter().map(choice).collect::<Result<Vec<_>, _>>()?;
+        let (names, choices): (Vec<String>, Vec<DesignChoice>) = chosen.into_iter().unzip();
+        let best = robot.optimise_area(&kind, &modes, &choices).map_err(Refused::input)?;
+        report = report.with_optimum(&names, &best);
+    }
+    let json = report.to_json();
+    let shape = Shape { reach: reach.clone(), workspace: workspace.clone(), slices };
     let file = file.clone();
     let draw = move || draw(&file.manipulator, &reach, &workspace);
     Ok((Answer::drawn(json, draw), shape))
+}
+
+/// The numbers of the design that a name stands for, and the name as reports write it.
+fn numbers(robot: &Manipulator, name: &str) -> Result<(String, Vec<DesignNumber>), Refused> {
+    let key: DesignKey = name.parse().map_err(|error: DesignError| Refused::input(error))?;
+    Ok((key.to_string(), key.numbers(robot).map_err(Refused::input)?))
 }
 
 /// The workspace over what each leg reaches alone, where that is bounded.
@@ -82,6 +131,23 @@ impl Shape {
     /// The loops as closed polygons, flat.
     fn outlines(&self, py: Python<'_>, points: usize) -> Vec<Vec<f64>> {
         py.detach(|| self.workspace.region.loops.iter().map(|one| flat(&one.arcs, points.max(2))).collect())
+    }
+
+    /// The loops of each slice as closed polygons, flat.
+    fn slices(&self, py: Python<'_>, points: usize) -> Vec<Vec<Vec<f64>>> {
+        let outlines =
+            |slice: &Workspace| slice.region.loops.iter().map(|one| flat(&one.arcs, points.max(2))).collect();
+        py.detach(|| self.slices.iter().map(outlines).collect())
+    }
+
+    /// The boundary as a DXF drawing.
+    fn dxf(&self, py: Python<'_>) -> String {
+        py.detach(|| workspace_dxf(&self.workspace))
+    }
+
+    /// Points along the boundary as CSV.
+    fn csv(&self, py: Python<'_>) -> String {
+        py.detach(|| workspace_csv(&self.workspace))
     }
 
     /// Arcs that are no part of a loop, separating ones, flat and open.

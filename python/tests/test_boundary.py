@@ -15,6 +15,8 @@ import assur
 
 from .conftest import EXAMPLES
 
+ARM = assur.Manipulator.from_file(EXAMPLES / "workspaces" / "table1-1a.toml")
+HEXAPTERON = assur.Multipteron.from_file(EXAMPLES / "hexapteron.toml")
 ROBOT = assur.Manipulator.from_file(EXAMPLES / "3-rpr.toml")
 INPUTS = [14.98, 15.38, 12.0]
 
@@ -100,7 +102,7 @@ def test_bad_rows_are_masked_with_their_reason() -> None:
     assert found.statuses.tolist() == [0, 3, 0, 3]
     with pytest.raises(KeyError):
         found.errors[0]
-    assert "2 with an error" in repr(found)
+    assert "2 rows with an error" in repr(found)
 
 
 def test_masked_numbers_are_not_taken_for_numbers() -> None:
@@ -184,6 +186,11 @@ def test_anything_as_inputs(value: Any) -> None:
 @given(anything, anything)
 def test_anything_as_poses_and_paths(first: Any, second: Any) -> None:
     calls: list[Callable[[], object]] = [
+        lambda: HEXAPTERON.forward(first),
+        lambda: HEXAPTERON.inverse(second),
+        lambda: ARM.workspace(assembly=first),
+        lambda: ARM.workspace().contains(first),
+        lambda: assur.Tripod.determinant_curves("inclined", [first], points=3),
         lambda: ROBOT.inverse(first),
         lambda: ROBOT.velocity(first, "+++", rates=second),
         lambda: ROBOT.follow(first, second),

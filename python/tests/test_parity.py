@@ -182,6 +182,32 @@ def test_tripod(cli: Cli) -> None:
     assert map_.to_json() == cli("tripod", "tilt", file, *corners, "--json")
 
 
+@pytest.mark.parametrize("name", ["tripteron", "quadrupteron", "hexapteron"])
+def test_multipterons(cli: Cli, name: str) -> None:
+    file = EXAMPLES / f"{name}.toml"
+    robot = assur.Multipteron.from_file(file)
+    count = {"tripteron": 3, "quadrupteron": 4, "hexapteron": 6}[name]
+    assert (robot.kind, robot.degrees_of_freedom) == (name, count)
+    inputs = [0.8, 1.2, 0.9, 0.4, 1.1, 0.7][:count]
+    asked = f"--inputs={joined(inputs)}"
+    assert robot.forward(inputs).to_json() == cli("multipteron", "forward", file, asked, "--json")
+    place = [1.0, 2.0, 3.0]
+    found = robot.inverse(place)
+    assert found.to_json() == cli("multipteron", "inverse", file, f"--pose={joined(place)}", "--json")
+    back = [mode.pose.position for mode in robot.forward(found.inputs)]
+    assert any(np.allclose(position, place) for position in back)
+
+
+def test_determinant_curves(cli: Cli) -> None:
+    poses = [[0.0] * 6, [0.0, 0.0, 0.0, *(math.radians(angle) for angle in (10.0, 5.0, 0.0))]]
+    found = assur.Tripod.determinant_curves("upright", poses, points=7)
+    asked = ["--pose=0,0,0,0,0,0", "--pose=0,0,0,10,5,0", "--points=7", "--json"]
+    assert found.to_json() == cli("tripod", "determinant", "upright", *asked)
+    assert found.determinants.shape == (2, 7) and found.elevations[-1] == pytest.approx(math.pi / 2)
+    with pytest.raises(assur.InputError, match="design: 'round' must be inclined or upright"):
+        assur.Tripod.determinant_curves("round", poses)
+
+
 def test_random_models(cli: Cli, tmp_path: Path, rng: np.random.Generator) -> None:
     modes = 0
     for _ in range(24):
@@ -196,6 +222,12 @@ def test_random_models(cli: Cli, tmp_path: Path, rng: np.random.Generator) -> No
             continue
         assert answer.to_json() == cli(*asked)
         modes += len(answer)
+        for mode in answer.modes[:1]:
+            pose = f"--pose={joined(mode.pose)}"
+            assert robot.inverse(mode.pose).to_json() == cli("inverse", path, pose, "--json")
+            signs = mode.signs or ""
+            moved = robot.velocity(mode.pose, signs, rates=[1, 2, 3]).to_json()
+            assert moved == cli("velocity", path, pose, f"--mode={signs}", "--rates=1,2,3", "--json")
         batch = robot.forward(np.array([inputs]))
         np.testing.assert_allclose(batch[0], answer.poses, rtol=1e-7, atol=1e-7 * answer.size)
     assert modes > 10, "hardly a random model had a mode: they test nothing"

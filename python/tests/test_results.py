@@ -23,6 +23,7 @@ ROBOT = assur.Manipulator.from_file(EXAMPLES / "3-rpr.toml")
 INPUTS = [14.98, 15.38, 12.0]
 HANA = assur.Hana.from_file(EXAMPLES / "hana.toml")
 ARM = assur.Manipulator.from_file(EXAMPLES / "workspaces" / "table1-1a.toml")
+HEXAPTERON = assur.Multipteron.from_file(EXAMPLES / "hexapteron.toml")
 TRIPOD = assur.Tripod.from_file(EXAMPLES / "tripod-cartesian.toml")
 
 
@@ -55,6 +56,10 @@ def answers() -> list[Report]:
         TRIPOD.velocity([200, 260, 240, 0.1, 0.05, -0.03]),
         TRIPOD.tilt([163.4, 163.4, 163.4]),
         TRIPOD.tilt_map([0, 0, 0], [400, 400, 400], sections=2, cells=3),
+        assur.Tripod.determinant_curves("inclined", [[0, 0, 0, 0.1, 0.2, 0]], points=5),
+        HEXAPTERON.forward([0.8, 1.2, 0.9, 0.4, 1.1, 0.7]),
+        HEXAPTERON.inverse([20, -10, 30, 0.1, 0, 0.2]),
+        ARM.workspace("constant", phi=4.2, slices=2, gradient=["leg1.limits.max"], optimise={"leg1.limits.max": (20.0, 30.0)}),
     ]
 
 
@@ -134,6 +139,14 @@ def test_results_travel(answer: Report) -> None:
     assert again == answer and hash(again) == hash(answer)
     assert repr(again) == repr(answer) and again.svg() == answer.svg()
     assert copy.deepcopy(answer) == answer
+
+
+def test_robots_and_sweeps_show_themselves() -> None:
+    study = assur.sweep(assur.vary(ROBOT, {"leg2.base.at.x": np.linspace(10, 20, 30)}), "degree")
+    for thing in (ROBOT, HANA, TRIPOD, HEXAPTERON, study, ROBOT.forward(np.array([INPUTS, INPUTS]))):
+        shown = thing._repr_html_()
+        assert shown.startswith("<div><b>") and shown.endswith("</div>") and "<td>" in shown or thing is ROBOT
+    assert "10 more rows" in study._repr_html_()
 
 
 def test_batches_travel() -> None:
@@ -216,3 +229,13 @@ def test_readmes_run(path: str, monkeypatch: pytest.MonkeyPatch) -> None:
     for block in blocks:
         assert len(block.strip().splitlines()) < 10, "a first picture in under ten lines"
         exec(compile(block, path, "exec"), {})
+
+
+def test_the_guide_says_what_happens(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(EXAMPLES.parent)
+    text = (EXAMPLES.parent / "docs" / "src" / "python.md").read_text()
+    blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    session = doctest.DocTestParser().get_doctest("\n".join(blocks), {}, "python.md", "python.md", 0)
+    assert len(session.examples) > 30
+    failed, _ = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS).run(session)
+    assert not failed

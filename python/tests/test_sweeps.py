@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import os
 import signal
+import sys
 import threading
 import time
 from pathlib import Path
 
+import cloudpickle
 import numpy as np
 import pyarrow.dataset
 import pyarrow.parquet
@@ -120,6 +122,10 @@ def test_a_worker_dies_and_nothing_is_lost_or_twice(tmp_path: Path) -> None:
     with cluster, distributed.Client(cluster) as client:
         pids = list(client.run(os.getpid).values())
         assert len(pids) == 2
+        # This module is none that workers could import: that is an error, and not a sweep that never ends.
+        with pytest.raises(ModuleNotFoundError):
+            assur.sweep(all_designs, [_slow], client)
+        cloudpickle.register_pickle_by_value(sys.modules[__name__])
 
         def kill_half_way() -> None:
             # As soon as some chunks are there and others are not.

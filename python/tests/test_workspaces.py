@@ -14,7 +14,7 @@ import shapely
 
 import assur
 
-from .conftest import EXAMPLES
+from .conftest import EXAMPLES, written
 
 MODELS = sorted((EXAMPLES / "workspaces").glob("table1-*.toml"))
 ROBOT = assur.Manipulator.from_file(EXAMPLES / "workspaces" / "table1-1a.toml")
@@ -87,6 +87,75 @@ def test_regions_travel_and_show_themselves() -> None:
     assert ax.patches and ax.get_title().startswith("maximal")
 
 
+def _random_arm(rng: np.random.Generator) -> dict[str, Any]:
+    """Three legs at random of those that workspaces are about, with limits of their own size."""
+
+    def point(size: float) -> list[float]:
+        return [float(value) for value in rng.uniform(-size, size, size=2)]
+
+    def leg() -> dict[str, Any]:
+        kind, low = str(rng.choice(["R_P_R", "_R_RR", "_P_RR"])), float(rng.uniform(1, 6))
+        found: dict[str, Any] = {"joints": kind, "base": {"at": point(6)}, "platform": {"at": point(3)}}
+        if kind == "R_P_R":
+            found["limits"] = [low, low + float(rng.uniform(1, 6))]
+        elif kind == "_R_RR":
+            found |= {"links": [low, float(rng.uniform(2, 7))]}
+        else:
+            found["base"]["angle"] = float(rng.uniform(-3, 3))
+            found |= {"links": [0.0, low + 2.0], "limits": [-low, float(rng.uniform(1, 8))]}
+        return found
+
+    return {"schema": "assur/manipulator/1", "leg": [leg(), leg(), leg()]}
+
+
+def test_random_workspaces(cli: Callable[..., str], tmp_path: Path, rng: np.random.Generator) -> None:
+    areas = []
+    for _ in range(8):
+        model = _random_arm(rng)
+        robot, path = assur.Manipulator.from_dict(model), written(model, tmp_path)
+        phi = float(rng.uniform(-3, 3))
+        constant, maximal = robot.workspace("constant", phi=phi), robot.workspace()
+        assert constant.to_json() == cli("workspace", path, "constant", f"--phi={phi!r}", "--json")
+        assert maximal.to_json() == cli("workspace", path, "maximal", "--json")
+        assert constant.area <= maximal.area * (1 + 1e-12)
+        areas.append(maximal.area)
+    assert sum(area > 0 for area in areas) > 4
+
+
+def test_files_slices_slopes_and_optima(cli: Callable[..., str], tmp_path: Path) -> None:
+    path = EXAMPLES / "workspaces" / "table1-1a.toml"
+    keys = ["leg1.limits.max", "leg2.base.at.x"]
+    asked: dict[str, Any] = {"slices": 5, "gradient": keys, "optimise": {"leg1.platform.at.x": (20.0, 30.0)}}
+    found = ROBOT.workspace("inclusive", lower=math.radians(200.0), upper=math.radians(260.0), **asked)
+    options = ["--slices=5", *(f"--gradient={key}" for key in keys), "--optimise=leg1.platform.at.x=20:30"]
+    files = ["--dxf", tmp_path / "reach.dxf", "--csv", tmp_path / "reach.csv"]
+    range_ = ["--from=200", "--to=260", "--json"]
+    assert found.to_json() == cli("workspace", path, "inclusive", *range_, *options, *files)
+    assert found.to_dxf() == (tmp_path / "reach.dxf").read_text()
+    assert found.to_csv() == (tmp_path / "reach.csv").read_text()
+    assert found.stack is not None and found.gradient is not None and found.optimum is not None
+    assert [one.phi for one in found.stack.slices] == pytest.approx(np.linspace(math.radians(200), math.radians(260), 5))
+    assert found.stack.volume / math.radians(60) == pytest.approx(np.mean([one.area for one in found.stack.slices]), rel=0.2)
+    step = 1e-5
+    moved = ROBOT.with_numbers({keys[0]: 12.0 + step})
+    wider = moved.workspace("inclusive", lower=math.radians(200.0), upper=math.radians(260.0))
+    assert (wider.area - found.area) / step == pytest.approx(found.gradient[keys[0]], rel=1e-4)
+    best = ROBOT.with_numbers(found.optimum.values).workspace("inclusive", lower=math.radians(200.0), upper=math.radians(260.0))
+    assert best.area == pytest.approx(found.optimum.area, rel=1e-12) and best.area >= found.area
+    assert len(found.slice_outlines()) == 5 and pickle.loads(pickle.dumps(found)).slice_outlines(8) is not None
+    ax = found.plot_slices()
+    assert len(ax.lines) == sum(len(one.loops) for one in found.stack.slices)
+
+
+def test_regions_over_one_another() -> None:
+    ax = ROBOT.workspace().plot(label="maximal")
+    assert ROBOT.workspace("constant", phi=4.2).plot(ax, label="constant") is ax
+    assert ROBOT.workspace("dextrous").plot(ax, label="dextrous") is ax
+    names = ax.get_legend_handles_labels()[1]
+    assert names == ["maximal", "constant", "dextrous (empty)"]
+    assert len({line.get_color() for line in ax.lines if not str(line.get_label()).startswith("_")}) == 3
+
+
 def test_one_assembly_alone() -> None:
     robot = ROBOT.with_numbers({"leg1.limits.min": 11.5})
     whole = robot.workspace()
@@ -125,6 +194,14 @@ def test_what_cannot_be_asked_is_named() -> None:
     with pytest.raises(assur.InputError) as caught:
         assur.Manipulator.from_file(EXAMPLES / "3-prp.toml").workspace()
     assert (caught.value.leg, caught.value.field) == (1, "joints")
+    with pytest.raises(assur.InputError, match="slices: 0 must be a whole number from 1"):
+        ROBOT.workspace(slices=0)
+    with pytest.raises(assur.InputError, match="optimise: leg1.limits.max: bounds 3.0, 2.0 must be finite and ascend"):
+        ROBOT.workspace(optimise={"leg1.limits.max": (3.0, 2.0)})
+    with pytest.raises(assur.InputError, match="no number of a design"):
+        ROBOT.workspace(gradient="leg1.colour")
+    with pytest.raises(assur.InputError, match="points: -1 must be a whole number from 2"):
+        ROBOT.workspace().outlines(-1)
     with pytest.raises(assur.InputError, match="not finite|must be finite"):
         ROBOT.workspace("constant", phi=np.nan)
 
