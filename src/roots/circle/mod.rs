@@ -235,8 +235,9 @@ mod tests {
             let mut values = [[0.0; B]; 8];
             for i in 0..B {
                 let cosines: [f64; 4] = from_fn(|_| next());
-                // Every third is near a double root.
-                let near = if (round + i) % 3 == 0 { 1e-9 * next() } else { 10.0 };
+                // Every third is near a double root, half of those nearer than the bound tells.
+                let distance = if round % 2 == 0 { 1e-9 } else { 1e-16 };
+                let near = if (round + i) % 3 == 0 { distance * next() } else { 10.0 };
                 for (k, value) in values.iter_mut().enumerate() {
                     let phi = k as f64 * PI / 4.0;
                     value[i] = match near {
