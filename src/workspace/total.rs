@@ -4,7 +4,7 @@
 //! orientation. Worst orientations are those where the limit's measure is stationary ([`super::Limit::alignments`]), the ends of the range, and
 //! those where two limits of one leg meet in a corner that points into the leg's region (the lens tips of a PRR leg); never two limits
 //! of different legs, because each leg must hold by itself. With two limits of one leg held, its remaining joint moves `C` on a circle, or on a line at
-//! one orientation. derivations/ring_reach.rs, slider_reach.rs and joint_ranges.rs work it through.
+//! one orientation; with joint 1 at an end in one working mode and joint 3 in the other, `C` moves on a coupler curve of that leg alone. derivations/ring_reach.rs, slider_reach.rs and joint_ranges.rs work it through.
 
 use nalgebra::Vector2;
 

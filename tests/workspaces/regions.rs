@@ -337,15 +337,51 @@ fn held_strokes_leave_points_and_curves() {
     // The ends of the curves are where the third stroke ends.
     let curves = maximal([10.0, 14.0]);
     let ends: Vec<[f64; 2]> = (curves.iter())
-        .map(|part| match part {
+        .flat_map(|part| match part {
             Isolated::Curve(arc) => [arc.start, arc.end],
             Isolated::Point { .. } => panic!("no point is alone"),
         })
-        .flatten()
         .collect();
     let apart = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).hypot(p[1] - q[1]);
     let alone = ends.iter().filter(|p| ends.iter().filter(|q| apart(**p, **q) < 1e-9).count() == 1).count();
     assert_eq!(alone, modes(10.0).len() + modes(14.0).len());
+}
+
+/// Manipulator 4 of the published ones with leg 1 at the two limits of having a dextrous workspace: a point, where the least stroke is the platform arm; a circle, where
+/// the strokes differ by twice that arm.
+#[test]
+fn dextrous_workspaces_shrink_to_a_point_and_to_a_circle() {
+    let dextrous = |first: [f64; 2]| {
+        let strut = |a, b, limits| Leg { limits: [None, Some(limits), None], ..Leg::rpr(a, b) };
+        let legs = vec![
+            strut([0.0, 0.0], [2.0, 0.0], first),
+            strut([10.0, 0.0], [1.0, 3f64.sqrt()], [1.0, 20.0]),
+            strut([5.0, 8.66], [0.0, 0.0], [1.0, 20.0]),
+        ];
+        let robot = Manipulator::new("4", legs).expect("is sound");
+        let found = robot.workspace(&WorkspaceKind::Dextrous, &WorkspaceModes::Both).expect("is bounded").region;
+        assert!(found.loops.is_empty() && found.area == 0.0 && found.unclosed.is_empty());
+        found.isolated
+    };
+    let point = dextrous([2.0, 3.5]);
+    assert!(matches!(point[..], [Isolated::Point { at: [x, y], .. }] if x.hypot(y) < 1e-14), "{point:?}");
+    // Leg 2 keeps out the part nearer to its pivot than 3.
+    let circle = dextrous([5.5, 9.5]);
+    let total: f64 = (circle.iter())
+        .map(|part| match part {
+            Isolated::Curve(arc) => arc.length(),
+            Isolated::Point { .. } => panic!("no point is alone"),
+        })
+        .sum();
+    let half = ((7.5_f64.powi(2) + 100.0 - 9.0) / (2.0 * 7.5 * 10.0)).acos();
+    assert!((total - 7.5 * (std::f64::consts::TAU - 2.0 * half) + kept_out(7.5)).abs() < 1e-12 * total, "{total}");
+}
+
+/// The length of a circle about the origin that leg 3 of that manipulator, whose pivot is the reference point, keeps out.
+fn kept_out(radius: f64) -> f64 {
+    let d = 5f64.hypot(8.66);
+    let cosine = (radius * radius + d * d - 1.0) / (2.0 * radius * d);
+    if cosine < 1.0 { 2.0 * radius * cosine.acos() } else { 0.0 }
 }
 
 /// The manipulator moved, turned and scaled.
