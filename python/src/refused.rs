@@ -27,7 +27,8 @@ impl Kind {
 pub struct Refused {
     kind: Kind,
     message: String,
-    place: ErrorPlace,
+    // Boxed, so that answers which are none do not make room for it.
+    place: Box<ErrorPlace>,
 }
 
 impl Refused {
@@ -36,7 +37,7 @@ impl Refused {
     where
         for<'a> ErrorPlace: From<&'a E>,
     {
-        Self { kind: Kind::Model, message: error.to_string(), place: ErrorPlace::from(&error) }
+        Self { kind: Kind::Model, message: error.to_string(), place: Box::new(ErrorPlace::from(&error)) }
     }
 
     /// A question that cannot be asked of a sound model.
@@ -44,7 +45,7 @@ impl Refused {
     where
         for<'a> ErrorPlace: From<&'a E>,
     {
-        Self { kind: Kind::Input, message: error.to_string(), place: ErrorPlace::from(&error) }
+        Self { kind: Kind::Input, message: error.to_string(), place: Box::new(ErrorPlace::from(&error)) }
     }
 
     /// The exception, not raised.
