@@ -510,3 +510,24 @@ fn determinant_curves_are_those_of_the_jacobian_and_the_closed_forms() {
         assert!((short - long).abs() < 1e-11 * scale, "{short} {long} {scale}");
     }
 }
+
+#[test]
+fn planes_that_do_not_turn_lose_no_assembly() {
+    // Two of the planes' normals are square to each other then, and an equation vanishes at a root.
+    let (general, closed) = (Tripod::cartesian(600.0, 720.0).expect("sound"), CartesianRobot { d1: 600.0, d2: 720.0 });
+    let mut random = Random::new(51);
+    for trial in 0..300 {
+        let mut inputs: [f64; 6] = std::array::from_fn(|_| random.between(-200.0, 300.0));
+        for leg in (0..3).filter(|leg| ((trial % 7) + 1) >> leg & 1 == 1) {
+            inputs[2 * leg + 1] = inputs[2 * leg];
+        }
+        let expected = closed.forward(&inputs).expect("T = 0 is regular");
+        let answer = general.forward(&inputs).expect("finite");
+        assert_eq!((answer.modes.len(), answer.spurious.len(), answer.account.real), (4, 4, 4), "{inputs:?}");
+        let found = answer.modes.iter().any(|mode| {
+            apart(&mode.pose.rotation, &expected.rotation) < 1e-9
+                && (mode.pose.position - expected.position).norm() < 1e-6
+        });
+        assert!(found, "{inputs:?}");
+    }
+}

@@ -239,11 +239,13 @@ impl Frame {
         };
         let determinant = a2 * b3 - a3 * b2;
         let sizes = a2.hypot(b2) * a3.hypot(b3);
+        // An equation that vanishes at a root, as where two normals are square to each other, is left with noise: the other one alone tells.
+        let faint = a2.hypot(b2).min(a3.hypot(b3)) <= PARALLEL;
         let mut seeds = [None; 5];
         if determinant.abs() > 1e-9 * sizes {
             seeds[0] = rotation((b2 * c3 - b3 * c2) / determinant, (c2 * a3 - c3 * a2) / determinant);
         }
-        if determinant.abs() <= PARALLEL * sizes || sizes == 0.0 {
+        if determinant.abs() <= PARALLEL * sizes || faint {
             for (k, [a, b, c]) in [[a2, b2, c2], [a3, b3, c3]].into_iter().enumerate() {
                 let square = a * a + b * b;
                 let rest = (square - c * c).max(0.0).sqrt();

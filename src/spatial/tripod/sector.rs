@@ -42,13 +42,13 @@ impl Quartic {
     /// The derivative by the angle, `p d/dq - q d/dp`: a quartic again.
     pub(super) fn by_angle(&self) -> Self {
         let mut derivative = [[0.0; 5]; 5];
-        for k in 1..5 {
+        for (k, (turned, form)) in derivative.iter_mut().zip(&self.0).enumerate() {
             for j in 0..=k {
                 if j < k {
-                    derivative[k][j + 1] -= (k - j) as f64 * self.0[k][j];
+                    turned[j + 1] -= (k - j) as f64 * form[j];
                 }
                 if j > 0 {
-                    derivative[k][j - 1] += j as f64 * self.0[k][j];
+                    turned[j - 1] += j as f64 * form[j];
                 }
             }
         }
@@ -110,14 +110,11 @@ impl Sector {
     }
 
     /// Whether the quartic is shown not to be negative at any distance up to `until`, and by `margin` times its largest coefficient more than that.
-    ///
-    /// A quick bound first: [`RADIAL_DEPTH`] is spent only where the edges hold.
     pub(super) fn kept(&self, until: f64, margin: f64) -> bool {
         // The triangle on the edges has to reach as far in the middle.
         let until = until / self.half.cos();
         let (mut columns, mut scale) = ([[0.0; 5]; 5], 1.0);
-        for k in 0..5 {
-            let mut raised = self.polar[k];
+        for (k, mut raised) in self.polar.into_iter().enumerate() {
             for degree in k + 1..5 {
                 for i in (1..=degree).rev() {
                     let share = i as f64 / degree as f64;
@@ -125,7 +122,7 @@ impl Sector {
                     raised[i] = share * raised[i - 1] + (1.0 - share) * own;
                 }
             }
-            (0..5).for_each(|i| columns[i][k] = scale * raised[i]);
+            columns.iter_mut().zip(raised).for_each(|(column, x)| column[k] = scale * x);
             scale *= until;
         }
         let columns = columns.map(|column| bernstein(&column));
