@@ -91,7 +91,7 @@ impl Triad {
     /// ```
     pub fn real_modes(&self) -> RealModes {
         let mut out = NONE_YET;
-        if !ARCH.dispatch(Fast(self, &mut out, None)) {
+        if !self.go_fast(&mut out, None) {
             out = self.real_modes_reference();
         }
         out
@@ -100,13 +100,19 @@ impl Triad {
     /// The fast way alone; `None` where its bounds do not decide.
     pub fn real_modes_fast(&self) -> Option<RealModes> {
         let mut out = NONE_YET;
-        ARCH.dispatch(Fast(self, &mut out, None)).then_some(out)
+        self.go_fast(&mut out, None).then_some(out)
     }
 
     /// The fast way with a box around each mode, each proved to hold exactly one assembly; in no order.
     pub(super) fn boxes_fast(&self) -> Option<(Boxes, usize)> {
         let (mut out, mut boxes) = (NONE_YET, [[Interval::ZERO; 3]; MOST_MODES]);
-        ARCH.dispatch(Fast(self, &mut out, Some(&mut boxes))).then_some((boxes, out.count))
+        self.go_fast(&mut out, Some(&mut boxes)).then_some((boxes, out.count))
+    }
+
+    /// Whether the bounds decide. Compiled once for all who ask: it takes a while.
+    #[inline(never)]
+    fn go_fast(&self, out: &mut RealModes, boxes: Option<&mut Boxes>) -> bool {
+        ARCH.dispatch(Fast(self, out, boxes))
     }
 
     /// The reference way, in the same form.
@@ -148,18 +154,16 @@ fn fast(triad: &Triad, out: &mut RealModes, mut boxes: Option<&mut Boxes>) -> Op
     let local = Local::of(triad)?;
     let (values, bound) = local.values();
     let mut queue = RootQueue::<ROOM>::default();
-    if Harmonics::from_samples(&values, local.order, bound).isolate(&mut queue).is_some() {
-        out.count = queue.len();
-        for group in 0..out.count.div_ceil(WIDTH) {
-            let roots = queue.find_abreast(group);
-            local.poses(&roots, WIDTH * group, out, boxes.as_deref_mut())?;
-        }
-    } else {
-        let roots = closer_look(triad)?;
-        out.count = roots.count();
-        for (group, roots) in roots.groups().enumerate() {
-            local.poses(roots, WIDTH * group, out, boxes.as_deref_mut())?;
-        }
+    let told = Harmonics::from_samples(&values, local.order, bound).isolate(&mut queue).is_some();
+    let closer = if told { None } else { Some(closer_look(triad)?) };
+    out.count = closer.as_ref().map_or(queue.len(), CountedRoots::count);
+    // One call of `poses`, which is inlined: it is long.
+    for group in 0..out.count.div_ceil(WIDTH) {
+        let roots = match &closer {
+            None => queue.find_abreast(group),
+            Some(found) => found.group(group),
+        };
+        local.poses(&roots, WIDTH * group, out, boxes.as_deref_mut())?;
     }
     sort(&mut out.modes[..out.count], |mode| mode.pose.phi);
     Some(())

@@ -82,8 +82,8 @@ impl CountedRoots {
     }
 
     /// Roots side by side, as they were found; lanes beyond the count hold any finite numbers.
-    pub(crate) fn groups(&self) -> impl Iterator<Item = &RootsFound<WIDTH>> {
-        self.found[..self.count.div_ceil(WIDTH)].iter()
+    pub(crate) fn group(&self, group: usize) -> RootsFound<WIDTH> {
+        self.found[group]
     }
 }
 
