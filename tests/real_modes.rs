@@ -3,7 +3,7 @@
 //! `ASSUR_TEST_SCALE=100 cargo test --release --test real_modes` runs the full million; seeds are fixed.
 
 use assur::nalgebra::Vector2;
-use assur::{Dyad, ModesRoute, Offset, Pose, Status, Triad};
+use assur::{Dyad, ModesBatch, ModesRoute, Offset, Pose, Status, Triad};
 use rayon::prelude::*;
 
 mod random;
@@ -243,4 +243,67 @@ fn half_turns_and_right_angles_are_ordinary() {
             assert_eq!(compare(&triad), Ok(true));
         }
     }
+}
+
+/// Triads of all kinds in any order, ordinary and nearly singular, some beyond the fast route.
+fn mixed(count: u64) -> Vec<Triad> {
+    let mut random = Random::new(2024);
+    (0..count)
+        .map(|i| {
+            let name = NAMES[(i * i + i / 3) as usize % NAMES.len()];
+            match i % 5 {
+                0 => {
+                    let apart = 10f64.powf(-2.0 - 12.0 * (0.5 + 0.5 * number(&mut random)));
+                    nearly_singular(name, &mut random, apart)
+                }
+                1 => {
+                    // An offset given as a distance, where there is one.
+                    let legs = planted(name, &mut random).legs().map(|leg| match leg {
+                        Dyad::RP { a, b, v, offset: Offset::TimesDirection(delta) } => {
+                            Dyad::RP { a, b, v, offset: Offset::Distance(delta / v.norm()) }
+                        }
+                        other => other,
+                    });
+                    Triad::new(legs).expect("finite")
+                }
+                _ if i % 997 == 0 => {
+                    let [first, second, _] = *planted(name, &mut random).legs();
+                    Triad::new([first, second, Dyad::PP { phi: 0.3 }]).expect("finite")
+                }
+                _ => planted(name, &mut random),
+            }
+        })
+        .collect()
+}
+
+#[test]
+fn a_batch_has_the_bits_of_each_triad_alone_whatever_its_company() {
+    let triads = mixed(2_000 * scale());
+    let batch = Triad::real_modes_batch(&triads);
+    // Cut anywhere, and backwards: other neighbours, other places in a block.
+    let cut = triads.len() / 2 + 77;
+    let halves = [Triad::real_modes_batch(&triads[..cut]), Triad::real_modes_batch(&triads[cut..])];
+    let turned: Vec<Triad> = triads.iter().rev().copied().collect();
+    let turned = Triad::real_modes_batch(&turned);
+    let row = |batch: &ModesBatch, k: usize| {
+        let bits: Vec<u64> = batch.poses()[18 * k..18 * (k + 1)].iter().map(|x| x.to_bits()).collect();
+        (bits, batch.counts()[k], batch.statuses()[k])
+    };
+    let wrong: Vec<usize> = (0..triads.len())
+        .into_par_iter()
+        .filter(|&k| {
+            let alone = triads[k].real_modes();
+            let mut bits = vec![0u64; 18];
+            for (place, mode) in bits.chunks_exact_mut(3).zip(alone.modes()) {
+                let Pose { x, y, phi } = mode.pose;
+                place.copy_from_slice(&[x, y, phi].map(f64::to_bits));
+            }
+            let own = (bits, alone.modes().len() as u8, Some(alone.status));
+            let half = if k < cut { row(&halves[0], k) } else { row(&halves[1], k - cut) };
+            [row(&batch, k), half, row(&turned, triads.len() - 1 - k)].iter().any(|found| *found != own)
+        })
+        .collect();
+    assert!(wrong.is_empty(), "{} of {} differ, first {:?}", wrong.len(), triads.len(), triads[wrong[0]]);
+    let fast = triads.iter().filter(|triad| triad.real_modes_fast().is_some()).count();
+    assert!(fast > triads.len() / 2 && fast < triads.len(), "{fast} of {}", triads.len());
 }

@@ -15,7 +15,6 @@ use super::Ring;
 /// assert_eq!(x * x - Lanes::from_int(1), Lanes([0.0, 3.0, 8.0, 15.0]));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(align(32))]
 pub struct Lanes<const N: usize>(pub [f64; N]);
 
 impl<const N: usize> Lanes<N> {
@@ -43,6 +42,65 @@ impl<const N: usize> Lanes<N> {
             *x = f(*x);
         }
         Self(out)
+    }
+}
+
+/// What choosing between numbers needs: no branches, which lanes that differ would not foresee.
+impl<const N: usize> Lanes<N> {
+    /// The modulus.
+    #[inline(always)]
+    pub fn abs(self) -> Self {
+        self.map(f64::abs)
+    }
+
+    /// The square root.
+    #[inline(always)]
+    pub fn sqrt(self) -> Self {
+        self.map(f64::sqrt)
+    }
+
+    /// The larger of two; of a number and NaN, `other`.
+    #[inline(always)]
+    pub fn larger(self, other: Self) -> Self {
+        self.zip(other, |x, y| if x > y { x } else { y })
+    }
+
+    /// The smaller of two; of a number and NaN, `other`.
+    #[inline(always)]
+    pub fn smaller(self, other: Self) -> Self {
+        self.zip(other, |x, y| if x < y { x } else { y })
+    }
+
+    /// `yes` where `self < bound`, else `no`; `no` where either is NaN.
+    #[inline(always)]
+    pub fn where_less(self, bound: Self, yes: Self, no: Self) -> Self {
+        let mut out = no.0;
+        for (i, x) in out.iter_mut().enumerate() {
+            *x = if self.0[i] < bound.0[i] { yes.0[i] } else { *x };
+        }
+        Self(out)
+    }
+
+    /// `yes` where `self <= bound`, else `no`; `no` where either is NaN.
+    #[inline(always)]
+    pub fn where_at_most(self, bound: Self, yes: Self, no: Self) -> Self {
+        let mut out = no.0;
+        for (i, x) in out.iter_mut().enumerate() {
+            *x = if self.0[i] <= bound.0[i] { yes.0[i] } else { *x };
+        }
+        Self(out)
+    }
+
+    /// A bit for each lane: whether `self < bound`.
+    #[inline(always)]
+    pub fn less(self, bound: Self) -> u32 {
+        (0..N).map(|i| u32::from(self.0[i] < bound.0[i]) << i).fold(0, |bits, bit| bits | bit)
+    }
+
+    /// A bit for each lane: whether `self <= bound`.
+    #[inline(always)]
+    pub fn at_most(self, bound: Self) -> u32 {
+        (0..N).map(|i| u32::from(self.0[i] <= bound.0[i]) << i).fold(0, |bits, bit| bits | bit)
     }
 }
 

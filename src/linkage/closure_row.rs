@@ -13,18 +13,16 @@
 
 use super::triad::LegNumbers;
 use crate::algebra::{Bounded, Gaussian, Lanes, Ring};
-
-/// Poses are worked on in fours.
-pub(super) const WIDTH: usize = 4;
+use crate::roots::WIDTH;
 
 type L = Lanes<WIDTH>;
 
 /// A closure equation at a pose: its value, and its derivatives.
 #[derive(Clone, Copy)]
 pub(super) struct ClosureRow<R> {
-    value: R,
-    force: Gaussian<R>,
-    moment: R,
+    pub(super) value: R,
+    pub(super) force: Gaussian<R>,
+    pub(super) moment: R,
 }
 
 /// The equation of a leg. `number` takes the leg's numbers to the ring; kinds of legs are told apart before their numbers are spread over
@@ -59,7 +57,7 @@ pub(super) fn closure_row<R: Ring + Copy>(
     }
 }
 
-/// The equations of three legs in four poses.
+/// The equations of three legs in several poses.
 #[inline(always)]
 pub(super) fn closure_rows(legs: &[LegNumbers<f64>; 3], u: Gaussian<L>, c: L, s: L) -> [ClosureRow<L>; 3] {
     [
@@ -71,7 +69,7 @@ pub(super) fn closure_rows(legs: &[LegNumbers<f64>; 3], u: Gaussian<L>, c: L, s:
 
 /// One step of Newton's method: by how much `u` and `phi` change.
 #[inline(always)]
-pub(super) fn newton_step(rows: &[ClosureRow<L>; 3]) -> (Gaussian<L>, L) {
+pub(super) fn newton_step<const N: usize>(rows: &[ClosureRow<Lanes<N>>; 3]) -> (Gaussian<Lanes<N>>, Lanes<N>) {
     let [p, q, r] = rows;
     let y = inverse(rows);
     let step = |k: usize| -(y[k][0] * p.value + y[k][1] * q.value + y[k][2] * r.value);
@@ -80,10 +78,10 @@ pub(super) fn newton_step(rows: &[ClosureRow<L>; 3]) -> (Gaussian<L>, L) {
 
 /// The inverse of the matrix of derivatives, by cofactors: columns belong to the legs, rows to `u` and `phi`.
 #[inline(always)]
-fn inverse([p, q, r]: &[ClosureRow<L>; 3]) -> [[L; 3]; 3] {
+fn inverse<const N: usize>([p, q, r]: &[ClosureRow<Lanes<N>>; 3]) -> [[Lanes<N>; 3]; 3] {
     let (pq, qr, rp) = (p.force.cross(&q.force), q.force.cross(&r.force), r.force.cross(&p.force));
-    let scale = L::all(1.0) / (p.moment * qr + q.moment * rp + r.moment * pq);
-    let minor = |a: &ClosureRow<L>, b: &ClosureRow<L>| {
+    let scale = Lanes::all(1.0) / (p.moment * qr + q.moment * rp + r.moment * pq);
+    let minor = |a: &ClosureRow<Lanes<N>>, b: &ClosureRow<Lanes<N>>| {
         let x = (a.force.im * b.moment - b.force.im * a.moment) * scale;
         let y = (b.force.re * a.moment - a.force.re * b.moment) * scale;
         (x, y)

@@ -6,8 +6,10 @@
 
 mod assemble;
 mod assemblies;
+mod block;
 mod certificate;
 mod closure_row;
+mod columns;
 mod constraint;
 mod coupler;
 mod decompose;
@@ -18,13 +20,16 @@ mod fibre;
 mod given_orientation;
 mod group;
 mod judge;
+mod local;
 mod loop_box;
 mod loops;
+mod many;
 mod name;
 mod numbers;
 mod pinned;
 mod pivoting;
 mod place;
+mod poses;
 mod prove;
 mod real_modes;
 mod slider_quadrics;
@@ -51,6 +56,7 @@ pub use decompose::{
 pub use dyad::{Guide, TwoLinkAssemblies, TwoLinkAssembly, TwoLinkError, TwoLinkGroup, TwoLinkSpecial};
 pub use group::{Dyad, Offset, Pose, Triad, TriadError, triad_degree};
 pub use judge::{Claim, Judgement};
+pub(crate) use many::real_modes_of_many;
 pub use name::{DyadKind, GroupName, GroupNameError};
 pub use pinned::{PinnedDyad, PinnedDyadError};
 pub use prove::{ProofRoute, ProvedMode, ProvedModes};

@@ -1,16 +1,17 @@
 //! Forward kinematics of many rows of inputs, or of many triads, at once.
 //!
-//! Each row takes the fast route ([`Triad::real_modes`]); rows are shared out over threads, and each writes into its own place, so that results do not
-//! depend on how many threads there are. Results are flat arrays.
+//! Each row takes the fast route ([`Triad::real_modes`]), many rows at a time in SIMD registers; rows are shared out over threads, and each writes into its own
+//! place, so that results do not depend on how many threads there are. Results are flat arrays.
 //!
 //! What it does not give: joints, signs, accounts, non-real solutions; for those there is [`Manipulator::forward`]. A leg without actuator only
 //! decides which poses it reaches.
 
+use arrayvec::ArrayVec;
 use rayon::prelude::*;
 
 use super::describe::Manipulator;
 use super::lock::{LockError, LockedGroup};
-use crate::linkage::{MOST_MODES, Pose, RealModes, Status, Triad};
+use crate::linkage::{MOST_MODES, Pose, Status, Triad, real_modes_of_many};
 
 /// Numbers a row has in [`ModesBatch::poses`].
 const WIDTH: usize = 3 * MOST_MODES;
@@ -28,7 +29,7 @@ pub struct ModesBatch {
 }
 
 impl ModesBatch {
-    fn of_rows(rows: usize, solve: impl Fn(usize) -> Result<RowModes, LockError> + Sync) -> Self {
+    fn of_shares(rows: usize, solve: impl Fn(usize, &mut Share) + Sync) -> Self {
         let mut out = Self {
             poses: vec![0.0; WIDTH * rows],
             counts: vec![0; rows],
@@ -83,76 +84,48 @@ pub struct ModesPlaces<'a> {
 }
 
 impl ModesPlaces<'_> {
-    fn fill(self, solve: impl Fn(usize) -> Result<RowModes, LockError> + Sync) -> Vec<(usize, LockError)> {
+    fn fill(self, solve: impl Fn(usize, &mut Share) + Sync) -> Vec<(usize, LockError)> {
         let shares = self
             .poses
             .par_chunks_mut(WIDTH * SHARE)
             .zip(self.counts.par_chunks_mut(SHARE))
             .zip(self.statuses.par_chunks_mut(SHARE))
             .enumerate();
-        let errors = shares.map(|(share, ((poses, counts), statuses))| {
-            let mut errors = Vec::new();
-            let rows = poses.chunks_exact_mut(WIDTH).zip(counts).zip(statuses);
-            for (row, ((poses, count), status)) in (SHARE * share..).zip(rows) {
-                match solve(row) {
-                    Ok(found) => {
-                        *status = Some(found.status);
-                        *count = found.count as u8;
-                        for (place, pose) in poses.chunks_exact_mut(3).zip(found.poses()) {
-                            place.copy_from_slice(&[pose.x, pose.y, pose.phi]);
-                        }
-                    }
-                    Err(error) => errors.push((row, error)),
-                }
-            }
-            errors
+        let errors = shares.map(|(number, ((poses, counts), statuses))| {
+            // Of a row with an error nothing is known.
+            counts.fill(0);
+            statuses.fill(None);
+            let mut share = Share { poses, counts, statuses, errors: Vec::new() };
+            solve(SHARE * number, &mut share);
+            share.errors
         });
         let errors: Vec<Vec<(usize, LockError)>> = errors.collect();
         errors.into_iter().flatten().collect()
     }
 }
 
-/// The modes of one row.
-struct RowModes {
-    poses: [Pose; MOST_MODES],
-    count: usize,
-    status: Status,
+/// Rows that one thread works on.
+struct Share<'a> {
+    poses: &'a mut [f64],
+    counts: &'a mut [u8],
+    statuses: &'a mut [Option<Status>],
+    errors: Vec<(usize, LockError)>,
 }
 
-impl RowModes {
-    fn poses(&self) -> &[Pose] {
-        &self.poses[..self.count]
-    }
-
-    fn push(&mut self, pose: Pose) {
-        // Ways of a leg without actuator share a pose.
-        if !self.poses().contains(&pose) {
-            self.poses[self.count] = pose;
-            self.count += 1;
-        }
-    }
-}
-
-impl From<RealModes> for RowModes {
+impl Share<'_> {
+    /// Books the modes of a row, counted within the share.
     #[inline(always)]
-    fn from(found: RealModes) -> Self {
-        let mut out = none(found.status);
-        for (place, mode) in out.poses.iter_mut().zip(found.modes()) {
-            *place = mode.pose;
-        }
-        out.count = found.modes().len();
-        out
+    fn put(&mut self, row: usize, poses: &[[f64; 3]], status: Status) {
+        (self.counts[row], self.statuses[row]) = (poses.len() as u8, Some(status));
+        self.poses[WIDTH * row..][..3 * poses.len()].copy_from_slice(poses.as_flattened());
     }
-}
-
-fn none(status: Status) -> RowModes {
-    RowModes { poses: [Pose { x: 0.0, y: 0.0, phi: 0.0 }; MOST_MODES], count: 0, status }
 }
 
 impl Triad {
     /// Every real assembly mode of many triads, on all threads.
     ///
-    /// **Shape, units, frame, accuracy, proof**: as [`Triad::real_modes`], row by row; the number of threads changes nothing. **Cost**: a microsecond a triad and thread.
+    /// **Shape, units, frame, accuracy, proof**: as [`Triad::real_modes`], row by row; to the last bit, in whatever order and company; the number of threads changes nothing. **Cost**: less than half a
+    /// microsecond a triad and thread, where triads are of few kinds (`benches/real_modes.rs`).
     ///
     /// ```
     /// use assur::{Dyad, Triad};
@@ -166,7 +139,10 @@ impl Triad {
     /// assert_eq!(batch.poses()[2], triads[0].real_modes().modes()[0].pose.phi);
     /// ```
     pub fn real_modes_batch(triads: &[Triad]) -> ModesBatch {
-        ModesBatch::of_rows(triads.len(), |row| Ok(triads[row].real_modes().into()))
+        ModesBatch::of_shares(triads.len(), |first, share| {
+            let own = &triads[first..first + share.counts.len()];
+            real_modes_of_many(own, |row, poses, status| share.put(row, poses, status));
+        })
     }
 }
 
@@ -196,8 +172,8 @@ impl Manipulator {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn forward_batch(&self, inputs: &[f64]) -> ModesBatch {
-        let (rows, solve) = self.row_by_row(inputs);
-        ModesBatch::of_rows(rows, solve)
+        let (rows, solve) = self.share_by_share(inputs);
+        ModesBatch::of_shares(rows, solve)
     }
 
     /// [`Manipulator::forward_batch`] into arrays of the caller's; the errors are given back, rows counted from 0.
@@ -215,28 +191,43 @@ impl Manipulator {
     /// # Ok::<(), assur::FamilyError>(())
     /// ```
     pub fn forward_batch_into(&self, inputs: &[f64], places: ModesPlaces) -> Vec<(usize, LockError)> {
-        let (rows, solve) = self.row_by_row(inputs);
+        let (rows, solve) = self.share_by_share(inputs);
         let lengths = [places.poses.len(), places.counts.len(), places.statuses.len()];
         assert_eq!(lengths, [WIDTH * rows, rows, rows], "numbers, counts and statuses for {rows} rows");
         places.fill(solve)
     }
 
-    /// How many rows there are, and what solves one.
-    fn row_by_row(&self, inputs: &[f64]) -> (usize, impl Fn(usize) -> Result<RowModes, LockError> + Sync) {
+    /// How many rows there are, and what solves those of a share, given the number of its first.
+    fn share_by_share(&self, inputs: &[f64]) -> (usize, impl Fn(usize, &mut Share) + Sync) {
         let width = self.actuated_joints().count();
         assert!(inputs.len().is_multiple_of(width), "{} inputs are no rows of {width}", inputs.len());
         let held_by_all = self.legs.iter().all(|leg| leg.actuated.contains(&true));
-        let solve = move |row: usize| {
-            let inputs = &inputs[width * row..width * (row + 1)];
-            match self.lock(inputs)? {
-                LockedGroup::Triad(triad) if held_by_all => Ok(triad.real_modes().into()),
-                _ => {
-                    let answer = self.forward(inputs)?;
-                    let mut out = none(answer.group.status);
-                    answer.modes.iter().for_each(|mode| out.push(mode.mode.pose));
-                    Ok(out)
+        let solve = move |first: usize, share: &mut Share| {
+            let (mut triads, mut places) = (Vec::with_capacity(SHARE), Vec::with_capacity(SHARE));
+            for row in 0..share.counts.len() {
+                let inputs = &inputs[width * (first + row)..width * (first + row + 1)];
+                match self.lock(inputs) {
+                    Ok(LockedGroup::Triad(triad)) if held_by_all => {
+                        triads.push(triad);
+                        places.push(row);
+                    }
+                    Ok(_) => match self.forward(inputs) {
+                        Ok(answer) => {
+                            let mut poses: ArrayVec<[f64; 3], MOST_MODES> = ArrayVec::new();
+                            for Pose { x, y, phi } in answer.modes.iter().map(|mode| mode.mode.pose) {
+                                // Ways of a leg without actuator share a pose.
+                                if !poses.contains(&[x, y, phi]) {
+                                    poses.push([x, y, phi]);
+                                }
+                            }
+                            share.put(row, &poses, answer.group.status);
+                        }
+                        Err(error) => share.errors.push((first + row, error)),
+                    },
+                    Err(error) => share.errors.push((first + row, error)),
                 }
             }
+            real_modes_of_many(&triads, |place, poses, status| share.put(places[place], poses, status));
         };
         (inputs.len() / width, solve)
     }

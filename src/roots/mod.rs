@@ -14,6 +14,7 @@ mod real_pencil;
 mod wide;
 
 pub use circle::{CountedRoots, Harmonics};
+pub(crate) use circle::{HarmonicBlock, RootColumns, RootQueue, RootsFound, WIDTH};
 pub use companion::{PolynomialRoots, RootsError, companion_roots, companion_roots_real};
 pub use isolate::{Isolation, isolate_real_roots};
 pub use locate::{CircleRoot, FIRST_BITS, MAX_BITS, NotLocated, locate_on_circle};
