@@ -12,23 +12,32 @@ use super::real_modes::{ARCH, MOST_MODES};
 ///
 /// The same as [`Triad::real_modes`] one by one, to the last bit; in no order.
 pub(crate) fn real_modes_of_many(triads: &[Triad], mut put: impl FnMut(usize, &[[f64; 3]], Status)) {
-    let mut left: Vec<(usize, Shape)> = Vec::with_capacity(triads.len());
-    for (place, triad) in triads.iter().enumerate() {
-        match Shape::of(triad) {
-            Some(shape) => left.push((place, shape)),
-            None => put_alone(place, triad, &mut put),
-        }
+    let mut shapes: Vec<Option<Shape>> = triads.iter().map(Shape::of).collect();
+    for (place, _) in shapes.iter().enumerate().filter(|(_, shape)| shape.is_none()) {
+        put_alone(place, &triads[place], &mut put);
     }
     let mut solver = Box::new(BlockSolver::new());
+    let mut first = 0;
     // As a rule three shapes, by the leg that serves as reference.
-    while let Some(&(first, shape)) = left.first() {
-        let (alike, others): (Vec<_>, Vec<_>) = left.into_iter().partition(|(_, other)| *other == shape);
-        left = others;
-        let order = triads[first].order().expect("a triad with a shape has an order");
-        for block in alike.chunks(BLOCK) {
-            let own: ArrayVec<&Triad, BLOCK> = block.iter().map(|&(place, _)| &triads[place]).collect();
+    while let Some(next) = shapes[first..].iter().position(Option::is_some) {
+        first += next;
+        let (shape, order) = (shapes[first].take().expect("some"), triads[first].order().expect("it has a shape"));
+        let mut block: ArrayVec<usize, BLOCK> = ArrayVec::from_iter([first]);
+        let mut at = first + 1;
+        loop {
+            while at < triads.len() && !block.is_full() {
+                if shapes[at] == Some(shape) {
+                    shapes[at] = None;
+                    block.push(at);
+                }
+                at += 1;
+            }
+            if block.is_empty() {
+                break;
+            }
+            let own: ArrayVec<&Triad, BLOCK> = block.iter().map(|&place| &triads[place]).collect();
             ARCH.dispatch(Solve { solver: &mut solver, triads: &own, shape, order });
-            for (k, &(place, _)) in block.iter().enumerate() {
+            for (k, place) in block.drain(..).enumerate() {
                 if solver.undecided >> k & 1 == 1 {
                     put_alone(place, &triads[place], &mut put);
                 } else {

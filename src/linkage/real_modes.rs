@@ -109,10 +109,9 @@ impl Triad {
         self.go_fast(&mut out, Some(&mut boxes)).then_some((boxes, out.count))
     }
 
-    /// Whether the bounds decide. Compiled once for all who ask: it takes a while.
-    #[inline(never)]
+    /// Whether the bounds decide.
     fn go_fast(&self, out: &mut RealModes, boxes: Option<&mut Boxes>) -> bool {
-        ARCH.dispatch(Fast(self, out, boxes))
+        fast(self, out, boxes).is_some()
     }
 
     /// The reference way, in the same form.
@@ -132,38 +131,74 @@ impl Triad {
 /// The processor's SIMD registers.
 pub(super) static ARCH: LazyLock<pulp::Arch> = LazyLock::new(pulp::Arch::new);
 
-/// The fast way, compiled for each kind of SIMD register: everything it calls must be inlined.
-struct Fast<'a>(&'a Triad, &'a mut RealModes, Option<&'a mut Boxes>);
-
 /// `[x, y, phi]` of each mode, before sorting.
 pub(super) type Boxes = [PoseIntervals; MOST_MODES];
-
-impl pulp::NullaryFnOnce for Fast<'_> {
-    type Output = bool;
-    #[inline(always)]
-    fn call(self) -> Self::Output {
-        fast(self.0, self.1, self.2).is_some()
-    }
-}
 
 /// Room for the roots of one triad, a multiple of the lanes worked on together.
 const ROOM: usize = 8;
 
-#[inline(always)]
+// Its steps, each compiled for each kind of SIMD register: everything they call must be inlined. As one function, with its loop, they would take minutes to compile.
+
+/// The first step: the cells of the roots; `Some(false)` where the bound does not tell.
+struct Isolate<'a>(&'a Triad, &'a mut Option<Local>, &'a mut RootQueue<ROOM>);
+
+/// The second step: the roots of a group of cells, if they are not known, and the poses above them, booked from a place on.
+struct Lift<'a>(&'a Local, &'a mut RootQueue<ROOM>, &'a Option<CountedRoots>, usize, &'a mut RealModes);
+
+/// At the wish of the caller: boxes around the poses just booked, of which there are some.
+struct Enclose<'a>(&'a Local, &'a Approach<WIDTH>, usize, usize, &'a RealModes, &'a mut Boxes);
+
+impl pulp::NullaryFnOnce for Isolate<'_> {
+    type Output = Option<bool>;
+    #[inline(always)]
+    fn call(self) -> Self::Output {
+        let Self(triad, place, queue) = self;
+        let local = place.insert(Local::of(triad)?);
+        let (values, bound) = local.values();
+        Some(Harmonics::from_samples(&values, local.order, bound).isolate(queue).is_some())
+    }
+}
+
+impl pulp::NullaryFnOnce for Lift<'_> {
+    type Output = Option<Approach<WIDTH>>;
+    #[inline(always)]
+    fn call(self) -> Self::Output {
+        let Self(local, queue, known, group, out) = self;
+        let roots = match known {
+            None => queue.find_abreast(group),
+            Some(known) => known.group(group),
+        };
+        local.poses(&roots, WIDTH * group, out)
+    }
+}
+
+impl pulp::NullaryFnOnce for Enclose<'_> {
+    type Output = Option<()>;
+    #[inline(always)]
+    fn call(self) -> Self::Output {
+        let Self(local, at, first, used, out, boxes) = self;
+        local.boxes(at, first, used, out, boxes)
+    }
+}
+
+/// One of the steps; a function by itself also where there are no SIMD registers.
+#[inline(never)]
+fn step<S: pulp::NullaryFnOnce>(step: S) -> S::Output {
+    ARCH.dispatch(step)
+}
+
 fn fast(triad: &Triad, out: &mut RealModes, mut boxes: Option<&mut Boxes>) -> Option<()> {
-    let local = Local::of(triad)?;
-    let (values, bound) = local.values();
-    let mut queue = RootQueue::<ROOM>::default();
-    let told = Harmonics::from_samples(&values, local.order, bound).isolate(&mut queue).is_some();
+    let (mut local, mut queue) = (None, RootQueue::<ROOM>::default());
+    let told = step(Isolate(triad, &mut local, &mut queue))?;
+    let local = local.as_ref()?;
     let closer = if told { None } else { Some(closer_look(triad)?) };
     out.count = closer.as_ref().map_or(queue.len(), CountedRoots::count);
-    // One call of `poses`, which is inlined: it is long.
     for group in 0..out.count.div_ceil(WIDTH) {
-        let roots = match &closer {
-            None => queue.find_abreast(group),
-            Some(found) => found.group(group),
-        };
-        local.poses(&roots, WIDTH * group, out, boxes.as_deref_mut())?;
+        let (first, used) = (WIDTH * group, (out.count - WIDTH * group).min(WIDTH));
+        let at = step(Lift(local, &mut queue, &closer, group, out))?;
+        if let Some(boxes) = boxes.as_deref_mut() {
+            step(Enclose(local, &at, first, used, out, boxes))?;
+        }
     }
     sort(&mut out.modes[..out.count], |mode| mode.pose.phi);
     Some(())
@@ -182,13 +217,7 @@ type L = Lanes<WIDTH>;
 impl Local {
     /// The poses above roots side by side, of which those up to the count are booked from `first` on; `None` where one needs a second look.
     #[inline(always)]
-    fn poses(
-        &self,
-        roots: &RootsFound<WIDTH>,
-        first: usize,
-        out: &mut RealModes,
-        boxes: Option<&mut Boxes>,
-    ) -> Option<()> {
+    fn poses(&self, roots: &RootsFound<WIDTH>, first: usize, out: &mut RealModes) -> Option<Approach<WIDTH>> {
         let legs = &self.legs;
         let u = match &rows(legs, L::all, roots.cosine, roots.sine) {
             Rows::Circle { rows: [p, q], .. } => crossing(p, q).1,
@@ -226,7 +255,7 @@ impl Local {
                 det_a: self.parity * det.0[i],
             };
         }
-        boxes.map_or(Some(()), |boxes| self.boxes(&at, first, used, out, boxes))
+        Some(at)
     }
 
     /// Boxes around the poses just booked.
