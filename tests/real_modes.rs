@@ -276,6 +276,72 @@ fn mixed(count: u64) -> Vec<Triad> {
         .collect()
 }
 
+/// What a batch says of a triad, to the last bit: poses, count, status.
+type Answer = (Vec<u64>, u8, Option<Status>);
+
+fn row(batch: &ModesBatch, k: usize) -> Answer {
+    let bits = batch.poses()[18 * k..18 * (k + 1)].iter().map(|x| x.to_bits()).collect();
+    (bits, batch.counts()[k], batch.statuses()[k])
+}
+
+/// The same of the triad alone.
+fn alone(triad: &Triad) -> Answer {
+    let found = triad.real_modes();
+    let mut bits = vec![0u64; 18];
+    for (place, mode) in bits.chunks_exact_mut(3).zip(found.modes()) {
+        let Pose { x, y, phi } = mode.pose;
+        place.copy_from_slice(&[x, y, phi].map(f64::to_bits));
+    }
+    (bits, found.modes().len() as u8, Some(found.status))
+}
+
+#[test]
+fn groups_of_any_length_are_as_alone_and_so_are_numbers_out_of_range() {
+    let mut random = Random::new(31);
+    let mut six = |size: f64| {
+        Triad::new(golden_six().map(|leg| match leg {
+            Dyad::RR { a, b, length } => {
+                let b = b + Vector2::new(number(&mut random), number(&mut random)) * 1e-4;
+                Dyad::RR { a: a * size, b: b * size, length: length * size }
+            }
+            other => other,
+        }))
+        .expect("finite")
+    };
+    let mut all_six = true;
+    // Around whole registers and blocks; six modes each fill a block's room for roots.
+    for count in [0, 1, 3, 4, 5, 7, 8, 9, 31, 32, 33, 65] {
+        let triads: Vec<Triad> = (0..count).map(|_| six(1.0)).collect();
+        let batch = Triad::real_modes_batch(&triads);
+        assert_eq!(batch.len(), count);
+        for (k, triad) in triads.iter().enumerate() {
+            assert_eq!(row(&batch, k), alone(triad), "{k} of {count}");
+            all_six &= batch.counts()[k] == 6;
+        }
+    }
+    assert!(all_six);
+    // Beside ordinary ones: sizes inside and outside of the range, a length of zero, a direction near zero, a huge offset.
+    let at = |x, y| Vector2::new(x, y);
+    let strange = [
+        Dyad::RR { a: at(1.0, 2.0), b: at(0.5, 0.25), length: 0.0 },
+        Dyad::PR { a: at(1.0, 2.0), u: at(1e-200, 2e-200), b: at(0.5, 0.25) },
+        Dyad::RP { a: at(1.0, 2.0), b: at(0.5, 0.25), v: at(1.0, 0.5), offset: Offset::Distance(1e150) },
+    ];
+    let triads: Vec<Triad> = (0..60)
+        .map(|k| match k % 6 {
+            0..3 => six([1e-140, 1e-60, 1e60, 1e140, 1.0][k % 5]),
+            other => {
+                let [_, second, third] = *six(1.0).legs();
+                Triad::new([strange[other - 3], second, third]).expect("finite")
+            }
+        })
+        .collect();
+    let batch = Triad::real_modes_batch(&triads);
+    let fast = triads.iter().filter(|triad| triad.real_modes_fast().is_some()).count();
+    assert!(0 < fast && fast < triads.len(), "{fast}");
+    triads.iter().enumerate().for_each(|(k, triad)| assert_eq!(row(&batch, k), alone(triad), "{k}: {triad:?}"));
+}
+
 #[test]
 fn a_batch_has_the_bits_of_each_triad_alone_whatever_its_company() {
     let triads = mixed(2_000 * scale());
@@ -285,20 +351,10 @@ fn a_batch_has_the_bits_of_each_triad_alone_whatever_its_company() {
     let halves = [Triad::real_modes_batch(&triads[..cut]), Triad::real_modes_batch(&triads[cut..])];
     let turned: Vec<Triad> = triads.iter().rev().copied().collect();
     let turned = Triad::real_modes_batch(&turned);
-    let row = |batch: &ModesBatch, k: usize| {
-        let bits: Vec<u64> = batch.poses()[18 * k..18 * (k + 1)].iter().map(|x| x.to_bits()).collect();
-        (bits, batch.counts()[k], batch.statuses()[k])
-    };
     let wrong: Vec<usize> = (0..triads.len())
         .into_par_iter()
         .filter(|&k| {
-            let alone = triads[k].real_modes();
-            let mut bits = vec![0u64; 18];
-            for (place, mode) in bits.chunks_exact_mut(3).zip(alone.modes()) {
-                let Pose { x, y, phi } = mode.pose;
-                place.copy_from_slice(&[x, y, phi].map(f64::to_bits));
-            }
-            let own = (bits, alone.modes().len() as u8, Some(alone.status));
+            let own = alone(&triads[k]);
             let half = if k < cut { row(&halves[0], k) } else { row(&halves[1], k - cut) };
             [row(&batch, k), half, row(&turned, triads.len() - 1 - k)].iter().any(|found| *found != own)
         })

@@ -19,8 +19,8 @@ use crate::roots::{HarmonicBlock, RootColumns, RootQueue};
 /// Triads in a block, and roots worked on together: as many as keep their numbers near the processor.
 pub(super) const BLOCK: usize = 32;
 const CHUNK: usize = 32;
-/// Loops run over a multiple of this many places: whole registers. How often they run is not known to the compiler: it would unroll them all, which takes minutes.
-const ABREAST: usize = 8;
+/// Loops over triads run over a multiple of this many places, whole registers; those over roots over a multiple of four. How often they run is not known to the compiler: it would unroll them all, which takes minutes.
+pub(super) const ABREAST: usize = 8;
 /// Room for all roots of a block.
 const ROOM: usize = BLOCK * MOST_MODES;
 
@@ -405,7 +405,7 @@ impl Chunk {
     }
 }
 
-/// Solves blocks, and holds what the last one came to. Made once and used again and again.
+/// Solves blocks, one after the other, and holds what the last one came to.
 pub(super) struct BlockSolver {
     /// `x, y, phi` of each mode, sorted by `phi`.
     pub(super) poses: [[[f64; 3]; MOST_MODES]; BLOCK],
@@ -430,6 +430,7 @@ impl BlockSolver {
     /// Solves a block of triads of one shape, whose `T` has this order.
     #[inline(always)]
     pub(super) fn solve(&mut self, triads: &[&Triad], shape: Shape, order: usize) {
+        const { assert!(BLOCK < 64, "a bit for each triad") };
         let Self { poses, counts, undecided, harmonics, queue } = self;
         // On the stack: that they do not overlap is plain to the compiler, which vectorises the loops then.
         let mut locals = Locals::EMPTY;
@@ -450,6 +451,8 @@ impl BlockSolver {
             chunk.find_poses(&locals, owners, &roots, filled);
             for k in 0..(queue.len() - first).min(CHUNK) {
                 let owner = owners[k] as usize % BLOCK;
+                debug_assert!(usize::from(counts[owner]) < MOST_MODES, "a form of degree 6 has six roots");
+                // The remainders change nothing; they spare checks of bounds.
                 let at = usize::from(counts[owner]) % MOST_MODES;
                 poses[owner][at] = [chunk.pose[0][k], chunk.pose[1][k], chunk.pose[2][k]];
                 counts[owner] += 1;
@@ -457,6 +460,7 @@ impl BlockSolver {
             }
         }
         for (poses, &count) in poses.iter_mut().zip(counts.iter()).take(count) {
+            // Roots lie in cells of their own: no two have the same angle.
             sort(&mut poses[..usize::from(count).min(MOST_MODES)], |pose| pose[2]);
         }
     }

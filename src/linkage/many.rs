@@ -4,7 +4,7 @@ use arrayvec::ArrayVec;
 use pulp::NullaryFnOnce;
 
 use super::assemblies::Status;
-use super::block::{BLOCK, BlockSolver, Shape};
+use super::block::{ABREAST, BLOCK, BlockSolver, Shape};
 use super::group::{Pose, Triad};
 use super::real_modes::{ARCH, MOST_MODES};
 
@@ -16,7 +16,7 @@ pub(crate) fn real_modes_of_many(triads: &[Triad], mut put: impl FnMut(usize, &[
     for (place, _) in shapes.iter().enumerate().filter(|(_, shape)| shape.is_none()) {
         put_alone(place, &triads[place], &mut put);
     }
-    let mut solver = Box::new(BlockSolver::new());
+    let mut solver = None;
     let mut first = 0;
     // As a rule three shapes, by the leg that serves as reference.
     while let Some(next) = shapes[first..].iter().position(Option::is_some) {
@@ -35,8 +35,13 @@ pub(crate) fn real_modes_of_many(triads: &[Triad], mut put: impl FnMut(usize, &[
             if block.is_empty() {
                 break;
             }
+            if block.len() < FEW {
+                block.drain(..).for_each(|place| put_alone(place, &triads[place], &mut put));
+                continue;
+            }
             let own: ArrayVec<&Triad, BLOCK> = block.iter().map(|&place| &triads[place]).collect();
-            ARCH.dispatch(Solve { solver: &mut solver, triads: &own, shape, order });
+            let solver = solver.get_or_insert_with(|| Box::new(BlockSolver::new()));
+            ARCH.dispatch(Solve { solver, triads: &own, shape, order });
             for (k, place) in block.drain(..).enumerate() {
                 if solver.undecided >> k & 1 == 1 {
                     put_alone(place, &triads[place], &mut put);
@@ -48,7 +53,10 @@ pub(crate) fn real_modes_of_many(triads: &[Triad], mut put: impl FnMut(usize, &[
     }
 }
 
-/// What no block decides: by intervals or by integers.
+/// Fewer triads than this are solved one by one: a block takes as long as for a whole register of them, and there each takes two thirds of the time alone.
+const FEW: usize = ABREAST / 2;
+
+/// What no block takes or decides.
 #[cold]
 fn put_alone(place: usize, triad: &Triad, put: &mut impl FnMut(usize, &[[f64; 3]], Status)) {
     let found = triad.real_modes();
@@ -57,7 +65,7 @@ fn put_alone(place: usize, triad: &Triad, put: &mut impl FnMut(usize, &[[f64; 3]
     put(place, &poses, found.status);
 }
 
-/// A block, compiled for each kind of SIMD register: everything it calls must be inlined.
+/// A block, compiled for each kind of SIMD register; what it calls and is not inlined is compiled for the plainest.
 struct Solve<'a> {
     solver: &'a mut BlockSolver,
     triads: &'a [&'a Triad],

@@ -1,7 +1,7 @@
 //! All real assembly modes, fast.
 //!
 //! `T(phi)` is evaluated at eight orientations side by side, with one bound on all rounding errors; its real roots are counted with a proof and found on
-//! the circle ([`Harmonics::real_roots`]); above each the pose is taken from two rows, refined by Newton's method on the loop equations, and measured on the
+//! the circle ([`crate::roots::circle`]); above each the pose is taken from two rows, refined by Newton's method on the loop equations, and measured on the
 //! geometry. Nothing is allocated. Many triads take the same steps by the block ([`super::many`]), with the same results to the last bit. Wherever a bound does not decide, or a pose would have fewer than nine sure digits, the reference
 //! route ([`Triad::assemble`]) answers instead.
 //!
@@ -137,25 +137,42 @@ pub(super) type Boxes = [PoseIntervals; MOST_MODES];
 /// Room for the roots of one triad, a multiple of the lanes worked on together.
 const ROOM: usize = 8;
 
-// Its steps, each compiled for each kind of SIMD register: everything they call must be inlined. As one function, with its loop, they would take minutes to compile.
+// Its steps, each compiled for each kind of SIMD register; what they call and is not inlined is compiled for the plainest. As one function, with its loop, they would take
+// minutes to compile.
 
-/// The first step: the cells of the roots; `Some(false)` where the bound does not tell.
-struct Isolate<'a>(&'a Triad, &'a mut Option<Local>, &'a mut RootQueue<ROOM>);
+/// The first step: the cells of the roots; `Some(false)` where the bound does not tell, `None` with a PP leg or numbers out of range.
+struct Isolate<'a> {
+    triad: &'a Triad,
+    local: &'a mut Option<Local>,
+    queue: &'a mut RootQueue<ROOM>,
+}
 
-/// The second step: the roots of a group of cells, if they are not known, and the poses above them, booked from a place on.
-struct Lift<'a>(&'a Local, &'a mut RootQueue<ROOM>, &'a Option<CountedRoots>, usize, &'a mut RealModes);
+/// The second step: the roots of a group of cells, if they are not known, and the poses above them.
+struct Lift<'a> {
+    local: &'a Local,
+    queue: &'a mut RootQueue<ROOM>,
+    known: &'a Option<CountedRoots>,
+    group: usize,
+    out: &'a mut RealModes,
+}
 
-/// At the wish of the caller: boxes around the poses just booked, of which there are some.
-struct Enclose<'a>(&'a Local, &'a Approach<WIDTH>, usize, usize, &'a RealModes, &'a mut Boxes);
+/// At the wish of the caller: boxes around the poses just booked.
+struct Enclose<'a> {
+    local: &'a Local,
+    at: &'a Approach<WIDTH>,
+    first: usize,
+    used: usize,
+    out: &'a RealModes,
+    boxes: &'a mut Boxes,
+}
 
 impl pulp::NullaryFnOnce for Isolate<'_> {
     type Output = Option<bool>;
     #[inline(always)]
     fn call(self) -> Self::Output {
-        let Self(triad, place, queue) = self;
-        let local = place.insert(Local::of(triad)?);
+        let local = self.local.insert(Local::of(self.triad)?);
         let (values, bound) = local.values();
-        Some(Harmonics::from_samples(&values, local.order, bound).isolate(queue).is_some())
+        Some(Harmonics::from_samples(&values, local.order, bound).isolate(self.queue).is_some())
     }
 }
 
@@ -163,12 +180,11 @@ impl pulp::NullaryFnOnce for Lift<'_> {
     type Output = Option<Approach<WIDTH>>;
     #[inline(always)]
     fn call(self) -> Self::Output {
-        let Self(local, queue, known, group, out) = self;
-        let roots = match known {
-            None => queue.find_abreast(group),
-            Some(known) => known.group(group),
+        let roots = match self.known {
+            None => self.queue.find_abreast(self.group),
+            Some(known) => known.group(self.group),
         };
-        local.poses(&roots, WIDTH * group, out)
+        self.local.poses(&roots, WIDTH * self.group, self.out)
     }
 }
 
@@ -176,8 +192,7 @@ impl pulp::NullaryFnOnce for Enclose<'_> {
     type Output = Option<()>;
     #[inline(always)]
     fn call(self) -> Self::Output {
-        let Self(local, at, first, used, out, boxes) = self;
-        local.boxes(at, first, used, out, boxes)
+        self.local.boxes(self.at, self.first, self.used, self.out, self.boxes)
     }
 }
 
@@ -189,15 +204,15 @@ fn step<S: pulp::NullaryFnOnce>(step: S) -> S::Output {
 
 fn fast(triad: &Triad, out: &mut RealModes, mut boxes: Option<&mut Boxes>) -> Option<()> {
     let (mut local, mut queue) = (None, RootQueue::<ROOM>::default());
-    let told = step(Isolate(triad, &mut local, &mut queue))?;
-    let local = local.as_ref()?;
+    let told = step(Isolate { triad, local: &mut local, queue: &mut queue })?;
+    let local = local.as_ref().expect("the first step has put it there");
     let closer = if told { None } else { Some(closer_look(triad)?) };
     out.count = closer.as_ref().map_or(queue.len(), CountedRoots::count);
     for group in 0..out.count.div_ceil(WIDTH) {
         let (first, used) = (WIDTH * group, (out.count - WIDTH * group).min(WIDTH));
-        let at = step(Lift(local, &mut queue, &closer, group, out))?;
+        let at = step(Lift { local, queue: &mut queue, known: &closer, group, out })?;
         if let Some(boxes) = boxes.as_deref_mut() {
-            step(Enclose(local, &at, first, used, out, boxes))?;
+            step(Enclose { local, at: &at, first, used, out, boxes })?;
         }
     }
     sort(&mut out.modes[..out.count], |mode| mode.pose.phi);

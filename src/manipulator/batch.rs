@@ -61,7 +61,7 @@ impl ModesBatch {
         &self.counts
     }
 
-    /// Whether each row's modes are all there are, or stand beside a curve of poses; `None` for a row with an error, of whose modes nothing is known.
+    /// Whether each row's modes are all there are, or stand beside a curve of poses, or may be short; `None` for a row with an error, of whose modes nothing is known.
     pub fn statuses(&self) -> &[Option<Status>] {
         &self.statuses
     }
@@ -126,8 +126,8 @@ impl Share<'_> {
 impl Triad {
     /// Every real assembly mode of many triads, on all threads.
     ///
-    /// **Shape, units, frame, accuracy, proof**: as [`Triad::real_modes`], row by row; to the last bit, in whatever order and company; the number of threads changes nothing. **Cost**: six tenths of a
-    /// microsecond a triad and thread, where triads are of few kinds (`benches/real_modes.rs`).
+    /// **Shape, units, frame, accuracy, proof**: as [`Triad::real_modes`], row by row; to the last bit, in whatever order and company; the number of
+    /// threads changes nothing. **Cost**: three quarters of a microsecond a triad and thread, where triads are of few kinds (`benches/real_modes.rs`).
     ///
     /// ```
     /// use assur::{Dyad, Triad};
@@ -153,8 +153,8 @@ impl Manipulator {
     ///
     /// **Shape**: `inputs` row by row, one value per actuated joint, leg by leg, base first; results as [`ModesBatch`] has them. **Units and frame**: as [`Manipulator::forward`].
     /// **Proof**: as [`Triad::real_modes`]: each row's count is proved; the number of threads changes nothing. Passive limits are not looked at. A row that cannot be asked (not finite,
-    /// out of limits) is an error of its own and leaves the others alone. **Cost**: some tenths of a microsecond a row more than [`Triad::real_modes_batch`]; a millisecond where
-    /// actuators share a leg.
+    /// out of limits) is an error of its own and leaves the others alone. **Cost**: as [`Triad::real_modes_batch`]; a millisecond where actuators
+    /// share a leg.
     ///
     /// # Panics
     /// Where the length of `inputs` is no multiple of the number of actuated joints.

@@ -7,18 +7,20 @@ use super::queue::RootQueue;
 use super::{FORM, Harmonics};
 use crate::algebra::Lanes;
 
-/// Polynomials of a block, one number of each beside that of the next, and their forms. Made once and filled again and again: clearing it would take time.
+/// Polynomials of a block, one number of each beside that of the next, and their forms. Filled again and again, by [`HarmonicBlock::put_samples`]: clearing it would
+/// take time.
 pub(crate) struct HarmonicBlock<const B: usize> {
     waves: [[f64; B]; 7],
     error: [f64; B],
     in_range: [u64; B],
     forms: [[[f64; B]; FORM]; CELLS],
     opened: Opened,
-    /// How many polynomials there are.
+    /// How many places are filled, also by repetition.
     filled: usize,
 }
 
 impl<const B: usize> HarmonicBlock<B> {
+    /// Without polynomials.
     pub(crate) const EMPTY: Self = Self {
         waves: [[0.0; B]; 7],
         error: [0.0; B],
@@ -49,6 +51,7 @@ impl<const B: usize> HarmonicBlock<B> {
     /// Adds the cells with one root each of the first `count` polynomials to a queue; a bit for each that the bound does not tell.
     #[inline(always)]
     pub(crate) fn isolate<const CAPACITY: usize>(&mut self, count: usize, queue: &mut RootQueue<CAPACITY>) -> u64 {
+        const { assert!(B <= 64, "a bit for each") };
         let table = &*TABLE;
         let Self { waves, error, in_range, forms, .. } = self;
         let (waves, error, in_range) = (*waves, *error, *in_range);
@@ -70,8 +73,8 @@ impl<const B: usize> HarmonicBlock<B> {
                 }
             }
         }
-        // A bit for each cell: one change of sign for certain; more, or one in doubt.
-        let [mut one, mut open, mut count_of] = [[0u64; B]; 3];
+        // A bit for each cell: one change of sign for certain; more for certain; a sign in doubt.
+        let [mut one, mut many, mut doubt, mut count_of] = [[0u64; B]; 4];
         let mut least_of = [0.0; B];
         for (which, form) in forms.iter().enumerate() {
             for i in 0..filled {
@@ -84,9 +87,10 @@ impl<const B: usize> HarmonicBlock<B> {
             }
             let bit = 1 << which;
             for i in 0..filled {
-                let doubt = least_of[i] <= error[i];
-                one[i] |= if (count_of[i] == 1) & !doubt { bit } else { 0 };
-                open[i] |= if (count_of[i] > 1) | doubt { bit } else { 0 };
+                let certain = least_of[i] > error[i];
+                one[i] |= if (count_of[i] == 1) & certain { bit } else { 0 };
+                many[i] |= if (count_of[i] > 1) & certain { bit } else { 0 };
+                doubt[i] |= if certain { 0 } else { bit };
             }
         }
         let mut undecided = 0;
@@ -97,14 +101,19 @@ impl<const B: usize> HarmonicBlock<B> {
                 continue;
             }
             let cell = |which: u32| Cell::whole(from_fn(|j| forms[which as usize][j][i]), which, i as u32);
-            let (mut one, mut open) = (one[i], open[i]);
+            let (mut one, mut many, mut doubt) = (one[i], many[i], doubt[i]);
             while one != 0 {
                 queue.push(&cell(one.trailing_zeros()));
                 one &= one - 1;
             }
-            while open != 0 {
-                let cell = cell(open.trailing_zeros());
-                open &= open - 1;
+            // A sign in doubt does not always mean halving: one between opposite ones makes no difference.
+            while doubt != 0 {
+                undecided |= u64::from(sort_out(&cell(doubt.trailing_zeros()), error[i], queue).is_none()) << i;
+                doubt &= doubt - 1;
+            }
+            while many != 0 {
+                let cell = cell(many.trailing_zeros());
+                many &= many - 1;
                 if self.opened.put(&cell).is_none() && sort_out(&cell, error[i], queue).is_none() {
                     undecided |= 1 << i;
                 }
@@ -117,7 +126,7 @@ impl<const B: usize> HarmonicBlock<B> {
     }
 }
 
-/// Cells with several changes of sign; more at a time are rare, and taken one by one.
+/// Cells with several changes of sign for certain; more at a time are rare, and taken one by one.
 struct Opened {
     count: usize,
     cells: [Cell; OPENED],
@@ -167,7 +176,7 @@ impl Opened {
             }
             bound[k] = error_at(error[cell.owner as usize % error.len()], self.largest[k], cell.depth + 1);
         }
-        // 0, 1: as many changes; 2: more, or in doubt.
+        // 0, 1: as many changes; 2: more; 3: in doubt.
         let mut kind = [[0u64; OPENED]; 2];
         for k in 0..count {
             let mut form = [Lanes([0.0]); FORM];
@@ -180,8 +189,7 @@ impl Opened {
                     forms[side][j][k] = halves[side][j].0[0];
                 }
                 let ([changes], least) = changes(&halves[side]);
-                let open = (least.0[0] <= bound[k]) | (changes > 1);
-                kind[side][k] = if open { 2 } else { changes };
+                kind[side][k] = if least.0[0] > bound[k] { changes.min(2) } else { 3 };
             }
         }
         let mut undecided = 0;
@@ -205,7 +213,7 @@ impl Opened {
                 };
                 if kind[side][k] == 1 {
                     queue.push(&half);
-                } else if self.put_part(&half, *largest).is_none() {
+                } else if kind[side][k] == 3 || self.put_part(&half, *largest).is_none() {
                     undecided |= self.sort_out_one(&half, *largest, error, queue);
                 }
             }

@@ -127,7 +127,7 @@ pub(super) struct Turned {
     /// `a_0`, then coefficients of the cosine and sine of one, two and three times the angle.
     pub(super) waves: [f64; 7],
     pub(super) error: f64,
-    /// Whether underflow and overflow are out of the question.
+    /// Whether underflow and overflow are out of the question, and the bound is a number.
     pub(super) in_range: bool,
 }
 
@@ -144,7 +144,7 @@ impl Turned {
         }
         // Step 4 of the derivation: 6 roundings for the turn, 24 · sqrt 2 for the table and the sums.
         let error = (t.error + 41.0 * UNIT * sum) * MARGIN;
-        Self { waves, error, in_range: (sum >= *RANGE.start()) & (sum <= *RANGE.end()) }
+        Self { waves, error, in_range: (sum >= *RANGE.start()) & (sum <= *RANGE.end()) & error.is_finite() }
     }
 }
 
