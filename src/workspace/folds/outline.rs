@@ -488,6 +488,7 @@ impl<'a> Tracer<'a> {
             let Some(look) = self.look(piece, part) else { continue };
             let t = piece.part(part);
             let left = quarter(self.eval(piece.curve, t).1);
+            let mut covered = false;
             for distance in BESIDE {
                 let aside = look.outward * (distance * self.size);
                 let (inside, outside) = (reached(look.at - aside), reached(look.at + aside));
@@ -495,6 +496,8 @@ impl<'a> Tracer<'a> {
                 let on_left = left.dot(&look.outward) < 0.0;
                 match (inside, outside) {
                     (true, false) => return (Standing::Boundary(on_left), Some(look)),
+                    // Where every orientation is asked for, the tolerance of membership hides a gap that just opens.
+                    (true, true) if !self.named.is_empty() => covered = true,
                     (true, true) => return (Standing::Separating(on_left), Some(look)),
                     (false, true) if look.either => return (Standing::Boundary(!on_left), Some(look)),
                     (false, false) if look.phi.is_none() => {
@@ -503,6 +506,9 @@ impl<'a> Tracer<'a> {
                     }
                     _ => {}
                 }
+            }
+            if covered {
+                return (Standing::Separating(false), Some(look));
             }
             last = Some(look);
         }
