@@ -553,6 +553,7 @@ impl Curves {
                     let joins = |other: &Branch| match end {
                         End::Turn => other.half == branch.half,
                         End::Through => other.sigma == branch.sigma,
+                        End::Swap => (other.half == branch.half) == (other.sigma == branch.sigma),
                         End::Crossing => true,
                         End::Off => false,
                     };
