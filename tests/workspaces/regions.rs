@@ -414,6 +414,54 @@ fn a_platform_congruent_to_its_base_goes_around_a_circle_and_is_decided() {
     assert!((total - 1.5 * PI).abs() < 1e-4, "{total}");
 }
 
+/// A leg held in a corner of what it allows, two of its own limits at once, by another leg that just reaches it: the maximal workspace is that pose alone.
+#[test]
+fn a_corner_of_one_leg_just_reached_by_another_is_an_isolated_point() {
+    // A leg whose base pivot is the origin with its platform pivot, a corner of where it can be, and a direction in which nothing of that lies.
+    let corners = |b: [f64; 2]| {
+        let strut = Leg { limits: [Some([0.0, PI / 2.0]), Some([2.0, 5.0]), None], ..Leg::rpr([0.0; 2], b) };
+        let crank =
+            Leg { limits: [Some([0.0, 2.0]), Some([PI / 4.0, PI / 2.0]), None], ..Leg::rrr([0.0; 2], 3.0, 2.0, b) };
+        let slider = Leg { limits: [Some([0.0, 2.0]), Some([2.0, 2.8]), None], ..Leg::prr([0.0; 2], 0.0, 2.0, b) };
+        let half = 2.0 * (PI / 4.0).sin();
+        [
+            (strut, [0.0, 5.0], [-0.6, 0.8], ["leg 1 max", "leg 1 joint 1 max"]),
+            (crank, [3.0 + half, half], [0.28, -0.96], ["leg 1 min", "leg 1 joint 2 min"]),
+            (slider, [2.0 * 2.8_f64.cos(), 2.0 * 2.8_f64.sin()], [-0.8, -0.6], ["leg 1 min", "leg 1 joint 2 max"]),
+        ]
+    };
+    let mut r = Random::new(0xc0);
+    for round in 0..8 * scale() {
+        let mut point = || Vector2::new(r.between(-2.0, 2.0), r.between(-2.0, 2.0));
+        let (b, arm, reference) = (point(), point(), point());
+        for (leg, corner, out, names) in corners(b.into()) {
+            let (corner, out) = (Vector2::from(corner), Vector2::from(out));
+            let reach = 4.0;
+            // Leg 2 stretches to its end along `out`, the platform's side between both pivots as well.
+            let base = corner + out * (reach + arm.norm());
+            let other = Leg { limits: [None, Some([0.5, reach]), None], ..Leg::rpr(base.into(), (b + arm).into()) };
+            let lax = Leg { limits: [None, Some([0.0, 90.0]), None], ..Leg::rpr([7.0, 3.0], [0.4, 1.0]) };
+            let mut robot = Manipulator::new("corner", vec![leg, other, lax]).expect("is sound");
+            // Also with the reference point at a pivot of either leg.
+            robot.reference = [reference, b, b + arm][round as usize % 3];
+            let phi = out.y.atan2(out.x) - arm.y.atan2(arm.x);
+            let expected = corner + Rotation2::new(phi) * (robot.reference - b);
+            let range = assur::plane::PhiRange { from: phi - 0.3, width: 0.7 };
+            for kind in [WorkspaceKind::Maximal, WorkspaceKind::Inclusive(range)] {
+                let found = robot.workspace(&kind, &WorkspaceModes::Both).expect("is bounded").region;
+                let [Isolated::Point { at, active }] = &found.isolated[..] else {
+                    panic!("round {round}, {kind:?} {names:?}: {:?}", found.isolated)
+                };
+                assert!(found.loops.is_empty() && found.unclosed.is_empty());
+                assert!((Vector2::from(*at) - expected).norm() < 1e-9, "{at:?} {expected:?}");
+                let active: Vec<String> = active.iter().map(ToString::to_string).collect();
+                assert!(active.len() >= 2 && active.contains(&"leg 2 max".to_owned()), "{active:?}");
+                assert!(active.iter().any(|name| names.contains(&&name[..])), "{active:?}");
+            }
+        }
+    }
+}
+
 /// Strokes held at one length: with three of them the maximal workspace is the assembly modes, with two a coupler curve's pieces.
 #[test]
 fn held_strokes_leave_points_and_curves() {

@@ -21,7 +21,7 @@ use super::edges;
 use super::every::{self, Named};
 use super::surface::{Form, Place, Slope, quarter};
 use crate::linkage::Dyad;
-use crate::plane::{Carrier, Meeting, PhiRange, direction, product};
+use crate::plane::{Carrier, Meeting, PhiRange, direction, principal, product};
 
 type Point = Vector2<f64>;
 
@@ -600,7 +600,7 @@ impl<'a> Tracer<'a> {
         out
     }
 
-    /// Places with a pose that holds a limit of each of three legs, and nothing reached around them.
+    /// Places with a pose at which limits leave no motion, and nothing reached around them.
     fn points(
         &self,
         boundary: &[(Piece, bool, Look)],
@@ -639,7 +639,16 @@ impl<'a> Tracer<'a> {
             }
             let mut active: Vec<ActiveLimit> =
                 surfaces.iter().map(|&s| self.curves.surfaces[s].limits[0].active()).collect();
+            let phi = place.turn.y.atan2(place.turn.x);
+            for (name, end) in
+                self.range.iter().flat_map(|r| [(ActiveLimit::PhiFrom, r.from), (ActiveLimit::PhiTo, r.to())])
+            {
+                if principal(phi - end).abs() <= PHI_SLACK {
+                    active.push(name);
+                }
+            }
             active.sort();
+            active.dedup();
             out.push(Isolated::Point { at: at.into(), active });
         }
         out
