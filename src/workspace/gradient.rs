@@ -343,7 +343,7 @@ fn derivatives(limit: &Limit, at: Vector2<f64>, turn: Vector2<f64>) -> (Vector2<
 }
 
 /// The orientations in which a limit's measure is stationary at a place.
-fn aligned(limit: &Limit, at: Vector2<f64>) -> [f64; 2] {
+pub(super) fn aligned(limit: &Limit, at: Vector2<f64>) -> [f64; 2] {
     // The direction of `of` (platform) turned onto that of `onto` (base), and against it.
     let onto = |of: Vector2<f64>, onto: Vector2<f64>| {
         let phi = onto.y.atan2(onto.x) - of.y.atan2(of.x);

@@ -7,7 +7,7 @@
 //! in closed form. In between the least of the distances has one peak (superlevel sets of monotone functions are intervals, and so are their
 //! intersections), which a section search cannot miss; the least value lies at an end.
 //!
-//! Of legs with a range of joint 3 the edge moves with the orientation; there the circle is cut evenly instead, see [`Reach::membership`].
+//! Of legs with a range of joint 3 the edge moves with the orientation; their orientations are in [`super::moving_edge`].
 
 use std::f64::consts::{PI, TAU};
 
@@ -211,7 +211,7 @@ impl LegReach {
     }
 
     /// Orientations between which the leg's slack has one peak.
-    fn events(&self, at: Vector2<f64>, fixed: &[Edge], tol: f64, out: &mut Vec<f64>) {
+    fn events(&self, at: Vector2<f64>, fixed: &[Edge], size: f64, out: &mut Vec<f64>) {
         if self.b == Vector2::zeros() && self.platform_sector.is_none() {
             return;
         }
@@ -221,11 +221,9 @@ impl LegReach {
             out.extend([principal(phi), principal(phi + PI)]);
             return;
         }
-        out.extend(self.limits.iter().flat_map(|limit| limit.orientations_at(at, tol)));
+        out.extend(self.limits.iter().flat_map(|limit| limit.orientations_at(at, 0.0)));
         if self.platform_sector.is_some() {
-            /// Even cuts of the circle where the edge moves with the platform (heuristic: a few times the number of its events).
-            const CUTS: i32 = 180;
-            out.extend((0..CUTS).map(|k| -PI + TAU * f64::from(k) / f64::from(CUTS)));
+            self.moving_edge_events(at, size, out);
         }
         for edge in fixed {
             edge.events(at, self.b, out);
@@ -236,8 +234,8 @@ impl LegReach {
 impl Reach {
     /// Whether a place belongs to a workspace, how far it is from the edge in its best orientation, and which limit binds there.
     ///
-    /// **Accuracy**: a few roundings of the mechanism's largest length; for legs with a range of joint 3, whose slack is searched between even cuts
-    /// of the circle, a peak narrower than two degrees may be passed over, which makes the margin too small, never `inside` wrong. Outside, the margin is measured to the nearest
+    /// **Accuracy**: a few roundings of the mechanism's largest length; for legs with a range of joint 3 a peak nearer than 1e-5 rad to where the shape of an edge changes
+    /// may be cut by that share of a pivot's way. Outside, the margin is measured to the nearest
     /// edges in the best orientation. **Cost**: `inside` alone ([`Reach::contains`]) below a microsecond; the margin some microseconds for rings, some tens for sliders with links and sectors, some milliseconds for legs with a range of joint 3.
     ///
     /// ```
@@ -274,42 +272,119 @@ impl Reach {
 
     /// The greatest or the least slack over a range of orientations.
     fn extreme_slack(&self, at: Vector2<f64>, range: &PhiRange, greatest: bool) -> Slack {
+        let none = Slack { value: f64::INFINITY, binding: None };
+        if greatest {
+            return self.extreme_of(0..self.legs.len(), at, range, true);
+        }
+        // The least is that of one leg, which outside has valleys of its own only.
+        let each = (0..self.legs.len()).map(|leg| self.extreme_of(leg..leg + 1, at, range, false));
+        each.min_by(|a, b| a.value.total_cmp(&b.value)).unwrap_or(none)
+    }
+
+    /// The same of some of the legs.
+    fn extreme_of(&self, legs: std::ops::Range<usize>, at: Vector2<f64>, range: &PhiRange, greatest: bool) -> Slack {
+        let none = Slack { value: f64::INFINITY, binding: None };
+        let each = || self.legs[legs.clone()].iter().zip(&self.edges[legs.clone()]);
         let mut events = Vec::new();
-        for (leg, fixed) in self.legs.iter().zip(&self.edges) {
-            leg.events(at, fixed, 0.0, &mut events);
+        for (leg, fixed) in each() {
+            leg.events(at, fixed, self.size, &mut events);
         }
         // As turns on from the beginning of the range.
         let width = range.width.min(TAU);
         let mut cuts: Vec<f64> = events.iter().map(|phi| (phi - range.from).rem_euclid(TAU)).collect();
         cuts.retain(|&cut| cut < width);
         cuts.extend([0.0, width]);
+        /// Events nearer than this (radians; some roundings of an angle) are one.
+        const SEAM: f64 = 1e-14;
         cuts.sort_by(f64::total_cmp);
-        cuts.dedup();
-        let slack = |cut: f64| self.slack(at, range.from + cut);
+        cuts.dedup_by(|later, earlier| *later - *earlier <= SEAM);
+        let moving = self.legs[legs.clone()].iter().any(|leg| leg.platform_sector.is_some());
+        let slack_of = |cut: f64, which: &dyn Fn(&LegReach) -> bool| {
+            let turn = direction(range.from + cut);
+            let slacks = each().filter(|(leg, _)| which(leg)).map(|(leg, fixed)| leg.slack(at, turn, fixed, self.size));
+            slacks.min_by(|a, b| a.value.total_cmp(&b.value)).unwrap_or(none)
+        };
+        let slack = |cut: f64| slack_of(cut, &|_| true);
+        // The slack of legs whose edges stand changes no faster than a pivot moves; corners of an edge that moves with the platform have no such bound.
+        let stands = |leg: &LegReach| leg.platform_sector.is_none();
+        let speed = each().filter(|(leg, _)| stands(leg)).map(|(leg, _)| leg.b.norm()).fold(0.0, f64::max);
         let better = |a: &Slack, b: &Slack| if greatest { a.value > b.value } else { a.value < b.value };
-        let values: Vec<Slack> = cuts.iter().map(|&cut| slack(cut)).collect();
-        let mut best = values.iter().copied().reduce(|best, next| if better(&next, &best) { next } else { best });
-        let mut best = best.take().unwrap_or(Slack { value: f64::INFINITY, binding: None });
-        // The slack changes no faster than a pivot moves; where an edge moves with the platform, than that moves as well.
-        let moving = self.legs.iter().any(|leg| leg.platform_sector.is_some());
-        let speed = self.legs.iter().map(|leg| leg.b.norm()).fold(0.0, f64::max) + if moving { self.size } else { 0.0 };
-        for (pair, ends) in cuts.windows(2).zip(values.windows(2)) {
-            let (a, b) = (ends[0].value, ends[1].value);
-            // Inside, the least value is at an end; outside, the distance to the nearest piece may pass from one to another.
-            if !greatest && a >= 0.0 && b >= 0.0 {
+        let steady: Vec<Slack> = cuts.iter().map(|&cut| slack_of(cut, &stands)).collect();
+        // The best that legs whose edges stand leave in an interval; the most promising first.
+        let bound = |k: usize| {
+            let (room, middle) = (0.5 * speed * (cuts[k + 1] - cuts[k]), 0.5 * (steady[k].value + steady[k + 1].value));
+            if greatest { middle + room } else { middle - room }
+        };
+        let mut order: Vec<(f64, usize)> = (0..cuts.len().saturating_sub(1)).map(|k| (bound(k), k)).collect();
+        if greatest {
+            order.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        }
+        let mut values: Vec<Option<Slack>> =
+            if moving { vec![None; cuts.len()] } else { steady.iter().copied().map(Some).collect() };
+        if cuts.len() == 1 {
+            return slack(cuts[0]);
+        }
+        let mut best = Slack { value: if greatest { f64::NEG_INFINITY } else { f64::INFINITY }, binding: None };
+        if !moving {
+            best = steady
+                .iter()
+                .copied()
+                .reduce(|best, next| if better(&next, &best) { next } else { best })
+                .unwrap_or(best);
+        }
+        for (bound, k) in order {
+            if (greatest || !moving) && !better(&Slack { value: bound, binding: None }, &best) {
                 continue;
             }
-            let room = 0.5 * speed * (pair[1] - pair[0]);
-            let bound = if greatest { 0.5 * (a + b) + room } else { 0.5 * (a + b) - room };
-            if better(&Slack { value: bound, binding: None }, &best) {
-                let found = section_search(&slack, pair[0], pair[1], greatest);
-                if better(&found, &best) {
-                    best = found;
+            let ends = [k, k + 1].map(|k| *values[k].get_or_insert_with(|| slack(cuts[k])));
+            for end in &ends {
+                if better(end, &best) {
+                    best = *end;
                 }
+            }
+            // Inside, the least value is at an end; outside, the distance to the nearest piece may pass from one to another.
+            let inside = |slack: &Slack| slack.value >= 0.0;
+            if !greatest && ends.iter().all(inside) && (!moving || inside(&slack(0.5 * (cuts[k] + cuts[k + 1])))) {
+                continue;
+            }
+            let found = if moving {
+                moving_peak(&slack, [cuts[k], cuts[k + 1]], ends, greatest)
+            } else {
+                section_search(&slack, cuts[k], cuts[k + 1], greatest)
+            };
+            if better(&found, &best) {
+                best = found;
             }
         }
         best
     }
+}
+
+/// The peak (or the valley) between two events of a function that may be another one at the events themselves, as where a part of what a leg allows has just shrunk away.
+///
+/// With one peak the function rises from the beginning and falls towards the end, or the peak is at an end.
+fn moving_peak(f: &dyn Fn(f64) -> Slack, [from, to]: [f64; 2], ends: [Slack; 2], greatest: bool) -> Slack {
+    /// So far inside the ends it is asked where the function goes, radians: nearer to where two carriers touch they are one to roundings.
+    const INSIDE: f64 = 1e-5;
+    if to - from < 4.0 * INSIDE {
+        return f(0.5 * (from + to));
+    }
+    let better = |a: &Slack, b: &Slack| if greatest { a.value > b.value } else { a.value < b.value };
+    let [first, second] = [1.0, 2.0].map(|steps| f(from + steps * INSIDE));
+    let [last, before] = [1.0, 2.0].map(|steps| f(to - steps * INSIDE));
+    if better(&second, &first) && better(&before, &last) {
+        return section_search(f, from + INSIDE, to - INSIDE, greatest);
+    }
+    // Where the function jumps at the event its limit from inside counts.
+    let limit = |near: &Slack, next: &Slack, end: &Slack| {
+        if better(near, end) && better(near, next) {
+            Slack { value: 2.0 * near.value - next.value, ..*near }
+        } else {
+            *end
+        }
+    };
+    let (left, right) = (limit(&first, &second, &ends[0]), limit(&last, &before, &ends[1]));
+    if better(&left, &right) { left } else { right }
 }
 
 /// The peak of a function with one peak between two arguments (or its valley), by golden section.

@@ -28,6 +28,7 @@ mod gradient;
 mod leg;
 mod limits;
 mod membership;
+mod moving_edge;
 #[cfg(feature = "optimise")]
 mod optimise;
 mod reach;

@@ -1,8 +1,11 @@
 //! Membership against brute force: points, sets of orientations, margins.
 
+use std::f64::consts::{PI, TAU};
+
+use assur::JointKind;
 use assur::workspace::{Reach, WorkspaceKind, WorkspaceModes};
 
-use crate::models::{Case, TROUBLES, questions, random_case, scale};
+use crate::models::{Case, TROUBLES, Trouble, questions, random_case, scale};
 use crate::oracle::{MANY_SAMPLES, Oracle, Question, SAMPLES, Verdict};
 use crate::random::Random;
 
@@ -204,6 +207,82 @@ fn margins_are_the_extreme_slacks() {
         }
     }
     assert!(asked > 1000);
+}
+
+/// With a range of joint 3 the edge of what a leg allows moves with the orientation. The margin is one that some orientation has; no orientation of a fine grid, nor near its best
+/// ones, has a better (for kinds that ask for every orientation: a worse).
+#[test]
+fn margins_with_ranges_of_joint_3_are_extreme_over_a_fine_grid() {
+    /// Orientations of the grid; of its best so many are improved, by so many halvings of the step.
+    const GRID: usize = 1440;
+    const IMPROVED: usize = 6;
+    const HALVINGS: usize = 40;
+    let (mut asked, mut inside) = (0, 0);
+    let mut wrong: Vec<String> = Vec::new();
+    for number in 0..30 * scale() {
+        let mut case =
+            random_case(number, [Trouble::None, Trouble::ReferenceInPivot, Trouble::Bent][number as usize % 3]);
+        let mut r = Random::new(0xed6e + number);
+        for (k, leg) in case.robot.legs.iter_mut().enumerate() {
+            let own = k == (number % 3) as usize;
+            let mut range = |wide: f64| {
+                let from = r.between(-PI, PI);
+                Some([from, from + r.between(1.0, wide)])
+            };
+            // One leg has the range asked about; some have one of joint 1 as well.
+            leg.limits[2] = if own { range(5.0) } else { None };
+            if leg.joints[0] == JointKind::Revolute {
+                leg.limits[0] = if own && number % 2 == 0 { range(6.0) } else { None };
+            }
+        }
+        // One mode, or both.
+        case.modes = case.modes.filter(|_| number % 4 == 0);
+        let Ok(reach) = case.robot.reach(&modes_of(&case)) else { continue };
+        for (index, question) in questions(&case, number).into_iter().enumerate().skip(1) {
+            let kind = kind_of(question, index);
+            let size = reach.size();
+            // A place inside, if chance finds one.
+            let mut place = || [0; 2].map(|_| r.between(-0.7 * size, 0.7 * size));
+            let places: Vec<[f64; 2]> = (0..200).map(|_| place()).collect();
+            let at = places.iter().copied().find(|&at| reach.contains(&kind, at.into())).unwrap_or(places[0]);
+            let found = margin(&reach, &kind, at);
+            let sense = if question.every { -1.0 } else { 1.0 };
+            let value = |phi: f64| sense * margin(&reach, &WorkspaceKind::Constant { phi }, at);
+            let step = question.width.min(TAU) / GRID as f64;
+            let within = |phi: f64| phi.clamp(question.from, question.from + question.width.min(TAU));
+            let mut grid: Vec<(f64, f64)> =
+                (0..=GRID).map(|k| within(question.from + step * k as f64)).map(|phi| (value(phi), phi)).collect();
+            grid.sort_by(|a, b| b.0.total_cmp(&a.0));
+            let mut best = grid[0].0;
+            for &(start, phi) in &grid[..IMPROVED] {
+                let (mut here, mut phi, mut step) = (start, phi, step);
+                for _ in 0..HALVINGS {
+                    step /= 2.0;
+                    for side in [phi - step, phi + step].map(within) {
+                        let there = value(side);
+                        if there > here {
+                            (here, phi) = (there, side);
+                        }
+                    }
+                }
+                best = best.max(here);
+            }
+            asked += 1;
+            inside += usize::from(found > 0.0);
+            // A narrow peak may pass through the grid, but not a wide difference.
+            if sense * found < best - 1e-10 * size || sense * found > best + 1e-3 * size {
+                wrong.push(format!(
+                    "{}: {kind:?} at {at:?}: {found}, on the grid {}\n{}",
+                    case.kind,
+                    sense * best,
+                    written(&case)
+                ));
+            }
+        }
+    }
+    let first = wrong[..wrong.len().min(3)].join("\n");
+    assert!(wrong.is_empty(), "{} of {asked} margins are not extreme; the first:\n{first}", wrong.len());
+    assert!(inside * 4 > asked, "{inside} of {asked} inside: not much of a test");
 }
 
 fn margin(reach: &Reach, kind: &WorkspaceKind, at: [f64; 2]) -> f64 {

@@ -11,7 +11,7 @@
 //!
 //! with `p`, `q` the distances of the two base and of the two platform points. So `|psi|` runs over one interval `[low, high]`, and the curve is made of branches: `psi` positive or
 //! negative, and the first or the second meeting point (`sigma`). A branch ends where carriers touch (a *turn*: the two `sigma` join), or at `psi` 0 or
-//! pi, where it goes *through* to its mirror image. The parameter `t` of a branch in `[0, 1]` is analytic up to a turn.
+//! pi, where it goes *through* to its mirror image; where the centres coincide there, as those of a parallelogram do, `sigma` changes with it. The parameter `t` of a branch in `[0, 1]` is analytic up to a turn.
 //! Differences that vanish at a turn are products of sines, so a point keeps its digits there.
 
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -30,6 +30,8 @@ pub(crate) enum End {
     Turn,
     /// `psi` is 0 or pi: the branch goes on with `psi` of the other sign.
     Through,
+    /// The same where the centres coincide: they pass each other, so that the first meeting point goes on as the second.
+    Swap,
     /// Both at once: four branches meet.
     Crossing,
     /// The curve runs off to infinity, or into an orientation at which the carriers are one line.
@@ -324,7 +326,7 @@ fn circles(first: [Point; 2], r: f64, second: [Point; 2], s: f64, frozen: &mut F
     let reach = |d: f64| 2.0 * ((d - near) * (d + near)).sqrt().atan2(((far - d) * (far + d)).sqrt());
     let (low, low_end) = if same(least, near, scale) {
         // A parallelogram's centres part at once: nothing crosses there.
-        (0.0, if near == 0.0 { End::Through } else { End::Crossing })
+        (0.0, if near == 0.0 { End::Swap } else { End::Crossing })
     } else if least < near {
         (0.0, End::Through)
     } else if least < far {
@@ -470,6 +472,7 @@ mod tests {
         // p = q, r = s: at psi = 0 both circles are one.
         let (parallelogram, frozen) = Coupled::new(circle(0.0, 0.0, 2.0), circle(1.5, 1.5, 2.0));
         assert_eq!(frozen, [0.0]);
+        assert_eq!(parallelogram.map(|curve| curve.ends), Some([End::Swap, End::Crossing]));
         let spot = parallelogram.expect("a curve").at(Branch { half: true, sigma: true }, 1e-7);
         assert!(spot.place.c.x.abs() < 2.0 && spot.place.c.iter().all(|x| x.is_finite()));
     }

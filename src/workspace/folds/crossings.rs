@@ -32,6 +32,8 @@ const ALLOWANCE: f64 = 1.5;
 const DEPTH: usize = 12;
 /// Pairs of pieces looked at for one pair of chords before they count as overlapping (a crossing takes some ten, a touch some hundred).
 const PATIENCE: usize = 1200;
+/// Of these after so many it is asked whether they run along each other (more than a crossing takes).
+const DOUBT: usize = 40;
 /// Two curves touch where they come nearer than this share of the length over which they stay together: the square of a small bend.
 const CLOSE: f64 = 1e-4;
 /// A crossing is sought by Newton's method where the angle between chords exceeds their own bends by this factor.
@@ -73,6 +75,12 @@ impl Chord {
     pub(super) fn around(chords: &[Self]) -> [Point; 2] {
         let none = [Point::repeat(f64::INFINITY), Point::repeat(f64::NEG_INFINITY)];
         chords.iter().fold(none, |[low, high], chord| [low.inf(&chord.low), high.sup(&chord.high)])
+    }
+
+    /// Whether a place is in the box of the chord, or nearer to it than `tol`.
+    pub(super) fn reaches(&self, at: Point, tol: f64) -> bool {
+        let (low, high) = (self.low - Point::repeat(tol), self.high + Point::repeat(tol));
+        low.x <= at.x && at.x <= high.x && low.y <= at.y && at.y <= high.y
     }
 
     fn length(&self) -> f64 {
@@ -161,6 +169,10 @@ pub(super) fn meet(
             return;
         }
         patience -= 1;
+        if patience == PATIENCE - DOUBT && run_along(one, other, [first, second], CLOSE * tol) {
+            out.overlap = true;
+            return;
+        }
         let near = |p: &Point| [a.start, a.end, b.start, b.end].iter().all(|q| (p - q).norm() <= tol);
         if known.iter().any(near) {
             continue;
@@ -190,6 +202,18 @@ pub(super) fn meet(
             todo.extend(b.halves(other).map(|half| (a, half)));
         }
     }
+}
+
+/// Whether two pieces have more than one of a few places in common.
+fn run_along(one: &Eval<'_>, other: &Eval<'_>, [a, b]: [&Chord; 2], close: f64) -> bool {
+    /// Places on each.
+    const PLACES: usize = 7;
+    let common = |from: &Eval<'_>, on: &Chord, to: &Eval<'_>, chord: &Chord| {
+        let place = |k: usize| from(on.from + (k as f64 + 0.5) / PLACES as f64 * (on.to - on.from)).0;
+        let lies = |at: &Point| (to(nearest(to, *at, chord.from, chord.to)).0 - at).norm() <= close;
+        (0..PLACES).map(place).filter(lies).take(2).count() == 2
+    };
+    common(one, a, other, b) || common(other, b, one, a)
 }
 
 /// Where two short pieces come nearer than `close`, if they do: in the middle of one of them, or at an end where a curve begins.

@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use arrayvec::ArrayVec;
 use nalgebra::Vector2;
 
 use super::super::limits::{ActiveLimit, Limit};
@@ -82,8 +83,8 @@ pub(super) struct Curves {
     pub(super) vertices: Vec<Point>,
     /// Orientations at which limits begin or cease to meet each other.
     turning: Vec<f64>,
-    /// Poses that hold a limit of each of three legs.
-    pub(super) poses: Vec<(Place, [usize; 3])>,
+    /// Poses at which limits that leave no motion are met: one of each of three legs, two of one leg and one of another, one where it is stationary and another's.
+    pub(super) poses: Vec<(Place, ArrayVec<usize, 3>)>,
     /// First of the branches of each coupled curve.
     pub(super) first_branch: Vec<usize>,
     pub(super) tol: f64,
@@ -360,6 +361,7 @@ impl Curves {
                 self.mark(curve, t, vertex);
                 let phi = motion.phi(t);
                 self.turning.push(phi);
+                self.poses.push((place, generators.iter().copied().chain([k]).collect()));
                 for &g in generators {
                     self.mark_coupled(book, [g, k], &place, phi, vertex);
                     self.mark_upright(book, g, place.c, vertex);
@@ -468,7 +470,9 @@ impl Curves {
             for k in 0..self.surfaces.len() {
                 if self.surfaces[k].leg == leg && !generators.contains(&k) {
                     for t in motion.meets(&self.surfaces[k].form, self.tol) {
-                        let at = motion.place(t).c;
+                        let place = motion.place(t);
+                        let at = place.c;
+                        self.poses.push((place, [generators[0], generators[1], k].into()));
                         self.turning.push(motion.phi(t));
                         let vertex = self.vertex(at);
                         self.mark(curve, t, vertex);
@@ -526,7 +530,7 @@ impl Curves {
                         let c = Point::new(mode.pose.x, mode.pose.y);
                         let place = Place { c, turn: direction(mode.pose.phi) };
                         self.turning.push(mode.pose.phi);
-                        self.poses.push((place, [i, j, k]));
+                        self.poses.push((place, [i, j, k].into()));
                         let vertex = self.vertex(c);
                         for pair in [[i, j], [i, k], [j, k]] {
                             self.mark_coupled(book, pair, &place, mode.pose.phi, vertex);
@@ -553,6 +557,7 @@ impl Curves {
                     let joins = |other: &Branch| match end {
                         End::Turn => other.half == branch.half,
                         End::Through => other.sigma == branch.sigma,
+                        End::Swap => (other.half == branch.half) == (other.sigma == branch.sigma),
                         End::Crossing => true,
                         End::Off => false,
                     };

@@ -2,8 +2,8 @@
 //!
 //! What such a leg does not allow is denied by both modes at once. Where joint 1 ends in one mode while joint 3 ends in the other, a corner of what is denied opens, and `C`
 //! moves on a coupler curve of that one leg. To the circles and lines of [`super::super::total`] these curves are added; all are divided where they meet, and membership on
-//! both sides of each piece decides it. Isolated points are not sought here. With links of equal length a piece of boundary can be missing where both pivots nearly meet; its
-//! neighbours then end up in [`Region::unclosed`], and reports say `undecided`.
+//! both sides of each piece decides it. Isolated points are not sought here.
+//! With links of equal length the coupler curve falls apart into circles: about the elbow, about the base pivot, and at the orientation at which the links are parallel.
 
 use super::super::arrangement::Bound;
 use super::super::limits::{ActiveLimit, Limit};

@@ -5,7 +5,7 @@
 //! 3. Each piece is decided by the exact set of orientations on both its sides: empty outside and not inside, it is boundary; not empty on both, another way of
 //!    reaching the places covers it, and it is kept as a separating arc.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use nalgebra::Vector2;
 
@@ -21,7 +21,7 @@ use super::edges;
 use super::every::{self, Named};
 use super::surface::{Form, Place, Slope, quarter};
 use crate::linkage::Dyad;
-use crate::plane::{Carrier, Meeting, PhiRange, direction, product};
+use crate::plane::{Carrier, Meeting, PhiRange, direction, principal, product};
 
 type Point = Vector2<f64>;
 
@@ -384,11 +384,31 @@ impl<'a> Tracer<'a> {
                 }
                 let evals: [&dyn Fn(f64) -> (Point, Point); 2] =
                     [&|t| self.eval(one.curve, t), &|t| self.eval(other.curve, t)];
-                let shared: Vec<Point> = [one.start, one.end]
+                let mut shared: Vec<Point> = [one.start, one.end]
                     .into_iter()
                     .filter(|v| [other.start, other.end].contains(v))
                     .map(|v| vertices[v])
                     .collect();
+                // A piece may end on another, where chords at a turning point of the parameter meet no longer.
+                if i != j {
+                    for (from, to) in [(i, j), (j, i)] {
+                        let piece = &folds[to];
+                        let ends = [folds[from].start, folds[from].end];
+                        for vertex in ends.into_iter().filter(|v| ![piece.start, piece.end].contains(v)) {
+                            let at = vertices[vertex];
+                            let eval = |t: f64| self.eval(piece.curve, t);
+                            let mut beside = divided[to].iter().filter(|chord| chord.reaches(at, near));
+                            let found = beside.find_map(|chord| {
+                                let t = nearest(&eval, at, chord.from, chord.to);
+                                ((eval(t).0 - at).norm() <= near).then_some(t)
+                            });
+                            if let Some(t) = found {
+                                marks[to].push((t, vertex));
+                                shared.push(at);
+                            }
+                        }
+                    }
+                }
                 let mut common = Common::default();
                 if let (Some(a), Some(b)) = (carriers[i], carriers[j]) {
                     match a.meet(&b, near) {
@@ -409,9 +429,13 @@ impl<'a> Tracer<'a> {
                             if i == j && n < m + 2 {
                                 continue;
                             }
-                            meet(evals[0], evals[1], [a, b], &shared, tol, &mut common);
-                            if common.overlap {
-                                break;
+                            let mut found = Common::default();
+                            meet(evals[0], evals[1], [a, b], &shared, tol, &mut found);
+                            // Where they run along each other every place is a touch.
+                            if found.overlap {
+                                common.overlap = true;
+                            } else {
+                                common.crossings.extend(found.crossings);
                             }
                         }
                     }
@@ -488,6 +512,7 @@ impl<'a> Tracer<'a> {
             let Some(look) = self.look(piece, part) else { continue };
             let t = piece.part(part);
             let left = quarter(self.eval(piece.curve, t).1);
+            let mut covered = false;
             for distance in BESIDE {
                 let aside = look.outward * (distance * self.size);
                 let (inside, outside) = (reached(look.at - aside), reached(look.at + aside));
@@ -495,6 +520,8 @@ impl<'a> Tracer<'a> {
                 let on_left = left.dot(&look.outward) < 0.0;
                 match (inside, outside) {
                     (true, false) => return (Standing::Boundary(on_left), Some(look)),
+                    // Where every orientation is asked for, the tolerance of membership hides a gap that just opens.
+                    (true, true) if !self.named.is_empty() => covered = true,
                     (true, true) => return (Standing::Separating(on_left), Some(look)),
                     (false, true) if look.either => return (Standing::Boundary(!on_left), Some(look)),
                     (false, false) if look.phi.is_none() => {
@@ -503,6 +530,9 @@ impl<'a> Tracer<'a> {
                     }
                     _ => {}
                 }
+            }
+            if covered {
+                return (Standing::Separating(false), Some(look));
             }
             last = Some(look);
         }
@@ -534,16 +564,26 @@ impl<'a> Tracer<'a> {
         }
         self.drop_doubles(&mut boundary);
         self.prune(&mut boundary);
+        self.bridge(&mut boundary);
         // What runs along a boundary adds nothing to it.
         undecided.retain(|open| !boundary.iter().any(|other| self.along(&open.0, &other.0)));
-        isolated.retain(|open| !boundary.iter().any(|other| self.along(&open.0, &other.0)));
-        self.drop_doubles(&mut isolated);
-        // Nor do short ones where curves touch to a high order, if all loops close without them.
+        isolated.retain(|open| !boundary.iter().any(|other| self.lies_on(&open.0, &other.0)));
+        // Next to where curves of the boundary touch, roundings leave shreds.
+        let bounding: HashSet<usize> = boundary.iter().flat_map(|(piece, ..)| [piece.start, piece.end]).collect();
+        isolated.retain(|(piece, ..)| {
+            let ends = [piece.start, piece.end];
+            let short = (self.curves.vertices[ends[1]] - self.curves.vertices[ends[0]]).norm() <= TOUCHING * self.size;
+            !(short && ends.iter().any(|end| bounding.contains(end)))
+        });
+        self.drop_covered(&mut isolated);
+        // Nor do, if all loops close without them, those that no loop of their own could take in, nor short ones where curves touch to a high order.
         if balance(&boundary).values().all(|&sum| sum == 0) {
             undecided.retain(|(piece, _, _)| {
                 let ends = [piece.from, piece.to].map(|t| self.eval(piece.curve, t).0);
                 (ends[1] - ends[0]).norm() > HIGH_CONTACT * self.size
             });
+            self.drop_covered(&mut undecided);
+            drop_dead_ends(&mut undecided);
         }
         out.undecided = undecided.iter().map(|(piece, on_left, look)| self.arc(piece, *on_left, look)).collect();
         if !self.partial {
@@ -560,7 +600,7 @@ impl<'a> Tracer<'a> {
         out
     }
 
-    /// Places with a pose that holds a limit of each of three legs, and nothing reached around them.
+    /// Places with a pose at which limits leave no motion, and nothing reached around them.
     fn points(
         &self,
         boundary: &[(Piece, bool, Look)],
@@ -585,6 +625,7 @@ impl<'a> Tracer<'a> {
                 continue;
             }
             let mut ends = boundary.iter().chain(isolated).flat_map(|(piece, ..)| [piece.start, piece.end]);
+            let on_curve = || isolated.iter().any(|(piece, ..)| self.passes(piece, at));
             let known = |part: &Isolated| matches!(part, Isolated::Point { at: p, .. } if near(&at, Point::from(*p)));
             let beside = |k: u32| {
                 at + direction(0.3 + super::curves::AROUND * f64::from(k) / f64::from(AROUND)) * (OFF * self.size)
@@ -592,12 +633,22 @@ impl<'a> Tracer<'a> {
             if ends.any(|end| near(&at, vertices[end]))
                 || out.iter().any(known)
                 || (0..AROUND).any(|k| reached(beside(k)))
+                || on_curve()
             {
                 continue;
             }
             let mut active: Vec<ActiveLimit> =
                 surfaces.iter().map(|&s| self.curves.surfaces[s].limits[0].active()).collect();
+            let phi = place.turn.y.atan2(place.turn.x);
+            for (name, end) in
+                self.range.iter().flat_map(|r| [(ActiveLimit::PhiFrom, r.from), (ActiveLimit::PhiTo, r.to())])
+            {
+                if principal(phi - end).abs() <= PHI_SLACK {
+                    active.push(name);
+                }
+            }
             active.sort();
+            active.dedup();
             out.push(Isolated::Point { at: at.into(), active });
         }
         out
@@ -636,14 +687,97 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// Whether the middle of a piece lies on another, as far as vertices are told apart.
+    /// Closes gaps where one curve takes over from another that it touches: where exactly, is known only to the root of a rounding, and on either curve. The
+    /// curve that arrives is followed to where the other leaves, or that one back.
+    fn bridge(&self, pieces: &mut [(Piece, bool, Look)]) {
+        let vertices = &self.curves.vertices;
+        loop {
+            let balance = balance(pieces);
+            let open = |sign: i32| balance.iter().filter(move |(_, sum)| sign * **sum > 0).map(|(&vertex, _)| vertex);
+            let mut gaps: Vec<(f64, usize, usize)> = Vec::new();
+            for arrived in open(-1) {
+                for left in open(1) {
+                    let width = (vertices[left] - vertices[arrived]).norm();
+                    if width <= TOUCHING * self.size {
+                        gaps.push((width, arrived, left));
+                    }
+                }
+            }
+            gaps.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
+            let closed = gaps.iter().any(|&(_, arrived, left)| {
+                pieces.iter_mut().any(|(piece, on_left, _)| {
+                    let [first, last] = if *on_left { [piece.start, piece.end] } else { [piece.end, piece.start] };
+                    let moved = if last == arrived {
+                        self.followed(piece, *on_left, left)
+                    } else if first == left {
+                        self.followed(piece, !*on_left, arrived)
+                    } else {
+                        None
+                    };
+                    moved.map(|moved| *piece = moved).is_some()
+                })
+            });
+            if !closed {
+                return;
+            }
+        }
+    }
+
+    /// A piece with its end (or its start) moved along its curve to another vertex, if it passes there.
+    fn followed(&self, piece: &Piece, end: bool, vertex: usize) -> Option<Piece> {
+        /// How far beyond the way to the vertex its parameter is sought.
+        const BEYOND: f64 = 4.0;
+        let at = self.curves.vertices[vertex];
+        let old = if end { piece.to } else { piece.from };
+        let eval = |t: f64| self.eval(piece.curve, t);
+        let (place, velocity) = eval(old);
+        let span = (BEYOND * (at - place).norm() / velocity.norm()).min(piece.to - piece.from);
+        let ([low, high], closed) = self.curves.span(piece.curve);
+        let (mut from, mut to) = (old - span, old + span);
+        if !closed {
+            (from, to) = (from.max(low), to.min(high));
+        }
+        let t = nearest(&eval, at, from, to);
+        let moved =
+            if end { Piece { to: t, end: vertex, ..*piece } } else { Piece { from: t, start: vertex, ..*piece } };
+        ((eval(t).0 - at).norm() <= 10.0 * SAME_VERTEX * self.size && moved.to > moved.from).then_some(moved)
+    }
+
+    /// Keeps of pieces that lie on each other the longer.
+    fn drop_covered(&self, pieces: &mut Vec<(Piece, bool, Look)>) {
+        let length = |piece: &Piece| {
+            let [start, middle, end] = [0.0, 0.5, 1.0].map(|part| self.eval(piece.curve, piece.part(part)).0);
+            (middle - start).norm() + (end - middle).norm()
+        };
+        let mut order: Vec<usize> = (0..pieces.len()).collect();
+        order.sort_by(|&i, &j| length(&pieces[j].0).total_cmp(&length(&pieces[i].0)).then(i.cmp(&j)));
+        let mut kept: Vec<usize> = Vec::new();
+        for k in order {
+            if !kept.iter().any(|&other| self.lies_on(&pieces[k].0, &pieces[other].0)) {
+                kept.push(k);
+            }
+        }
+        kept.sort_unstable();
+        *pieces = kept.into_iter().map(|k| pieces[k].clone()).collect();
+    }
+
+    /// Whether a piece lies on another, its ends and its middle.
+    fn lies_on(&self, piece: &Piece, other: &Piece) -> bool {
+        [0.5, 0.0, 1.0].iter().all(|&part| self.passes(other, self.eval(piece.curve, piece.part(part)).0))
+    }
+
+    /// Whether the middle of a piece lies on another.
     fn is_near(&self, piece: &Piece, other: &Piece) -> bool {
+        self.passes(other, self.eval(piece.curve, piece.part(0.5)).0)
+    }
+
+    /// Whether a piece passes a place, as far as vertices are told apart.
+    fn passes(&self, piece: &Piece, at: Point) -> bool {
         let near = 10.0 * SAME_VERTEX * self.size;
-        let middle = self.eval(piece.curve, piece.part(0.5)).0;
-        let eval = |t: f64| self.eval(other.curve, t);
-        chords(&eval, other.from, other.to)
+        let eval = |t: f64| self.eval(piece.curve, t);
+        chords(&eval, piece.from, piece.to)
             .iter()
-            .any(|chord| (eval(nearest(&eval, middle, chord.from, chord.to)).0 - middle).norm() <= near)
+            .any(|chord| (eval(nearest(&eval, at, chord.from, chord.to)).0 - at).norm() <= near)
     }
 
     /// Whether a piece runs along another between the same vertices.
@@ -694,6 +828,22 @@ fn balance(pieces: &[(Piece, bool, Look)]) -> HashMap<usize, i32> {
         *balance.entry(piece.end).or_default() -= side;
     }
     balance
+}
+
+/// Takes away pieces that belong to no closed way along the others.
+fn drop_dead_ends(pieces: &mut Vec<(Piece, bool, Look)>) {
+    loop {
+        let mut degree: HashMap<usize, usize> = HashMap::new();
+        for (piece, _, _) in pieces.iter() {
+            *degree.entry(piece.start).or_default() += 1;
+            *degree.entry(piece.end).or_default() += 1;
+        }
+        let before = pieces.len();
+        pieces.retain(|(piece, _, _)| degree[&piece.start] > 1 && degree[&piece.end] > 1);
+        if pieces.len() == before {
+            return;
+        }
+    }
 }
 
 /// Joins pieces of one curve that follow each other where nothing else ends.
