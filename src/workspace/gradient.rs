@@ -14,16 +14,16 @@ use std::f64::consts::FRAC_PI_2;
 use nalgebra::Vector2;
 
 use super::boundary::{ArcCurve, BoundaryArc};
-use super::limits::{ActiveLimit, Limit, LimitCause, WorkspaceError, WorkspaceModes};
+use super::limits::{ActiveLimit, Limit, LimitCause, WorkspaceError, WorkspaceModes, beside};
 use super::reach::Reach;
 use super::region::{Workspace, WorkspaceKind};
 use crate::linkage::Dyad;
 use crate::manipulator::{DesignNumber, Manipulator};
-use crate::plane::{direction, gauss, product};
+use crate::plane::{Carrier, conjugate, direction, gauss, product};
 
-/// Step of a design number for the derivative of a limit's own closed form, over the mechanism's size (angles: radians). The rule of four points is exact up to
-/// the fifth derivative times the step's fourth power, some 1e-13; roundings over the step are as small.
-const STEP: f64 = 1e-3;
+/// Step of a design number for the derivative of a limit's own closed form, over the mechanism's size (angles: radians). The rule of four points misses the fourth
+/// power of the step over the shortest length that the limit bends with, 2e-11 for a link of a twentieth of the size; roundings over the step are as small.
+const STEP: f64 = 1e-4;
 /// Steps that are tried, each a hundredth of the one before, where a limit does not exist on both sides.
 const TRIES: usize = 4;
 /// Offsets of the rule and their weights.
@@ -130,6 +130,17 @@ impl Nearby {
         Ok(found)
     }
 
+    /// How the reference point moves at a given orientation where a limit holds two pivots in one place.
+    fn motion(&self, limit: usize, turn: Vector2<f64>) -> Vector2<f64> {
+        let place = |twin: &Limit| match twin.dyad {
+            Dyad::RR { a, b, .. } => a - product(turn, b),
+            _ => Vector2::zeros(),
+        };
+        self.limits[limit].map_or_else(Vector2::zeros, |twins| {
+            twins.iter().zip(RULE).map(|(twin, (_, weight))| place(twin) * weight).sum::<Vector2<f64>>() / self.step
+        })
+    }
+
     /// The derivative of a limit's measure at a pose of the reference point.
     fn slope(&self, limit: usize, at: Vector2<f64>, turn: Vector2<f64>) -> f64 {
         self.limits[limit].map_or(0.0, |twins| {
@@ -230,6 +241,16 @@ impl Held<'_> {
         let Some(outward) = outward.try_normalize(0.0) else { return none() };
         let (phi, held) = self.pose(spot);
         let turn = direction(phi);
+        // Two pivots held in one place, as of a leg folded upon itself: the place moves as they do.
+        if let Some(&k) = held.iter().find(|&&k| matches!(self.limits[k].dyad, Dyad::RR { length: 0.0, .. })) {
+            return self.nearby.iter().map(|nearby| nearby.motion(k, turn).dot(&outward)).collect();
+        }
+        // Where a leg's modes merge, the surface of another of its limits touches that of the merging: there is no combination of the two, but the leg is rigid.
+        if let [i, j] = held[..]
+            && let Some(speeds) = self.touching(i, j, spot, outward)
+        {
+            return speeds;
+        }
         let pushes: Vec<(usize, Vector2<f64>, f64)> = held
             .iter()
             .map(|&k| {
@@ -258,6 +279,22 @@ impl Held<'_> {
                 -change / across
             })
             .collect()
+    }
+
+    /// The speeds where two limits of one leg touch along the piece.
+    fn touching(&self, i: usize, j: usize, spot: &Spot, outward: Vector2<f64>) -> Option<Vec<f64>> {
+        let (one, other) = (&self.limits[i], &self.limits[j]);
+        if one.leg != other.leg || one.mode.is_some() == other.mode.is_some() {
+            return None;
+        }
+        let across = rigid(one, other)?.normal(spot.at).dot(&outward);
+        let speed = |nearby: &Nearby| {
+            let (Some(ones), Some(others)) = (&nearby.limits[i], &nearby.limits[j]) else { return 0.0 };
+            let off = |k: usize| rigid(&ones[k], &others[k]).map_or(0.0, |carrier| carrier.distance(spot.at));
+            let change = RULE.iter().enumerate().map(|(k, (_, weight))| weight * off(k)).sum::<f64>() / nearby.step;
+            -change / across
+        };
+        (across != 0.0).then(|| self.nearby.iter().map(speed).collect())
     }
 
     /// The orientation at a place of the boundary, and the limits that hold it there (one, or a pair).
@@ -312,6 +349,50 @@ impl Held<'_> {
             }
         }
         nearest(candidates)
+    }
+}
+
+/// The places of the reference point where two limits of one leg touch: the leg is straight, or stands across its slider, with one more joint held.
+fn rigid(one: &Limit, other: &Limit) -> Option<Carrier> {
+    let left = |v: Vector2<f64>| Vector2::new(-v.y, v.x);
+    // The point of a circle on the line to another centre that has its distance from that.
+    let between = |from: Vector2<f64>, length: f64, to: Vector2<f64>, wanted: f64| {
+        let along = (to - from).try_normalize(0.0).unwrap_or_else(Vector2::zeros) * length;
+        let miss = |p: &Vector2<f64>| ((p - to).norm() - wanted).abs();
+        let [ahead, behind] = [from + along, from - along];
+        if miss(&ahead) <= miss(&behind) { ahead } else { behind }
+    };
+    let circle = |center, radius| Some(Carrier::Circle { center, radius });
+    match (one.dyad, other.dyad) {
+        (Dyad::RR { a, b, length }, Dyad::RR { a: a2, b: b2, length: length2 }) => {
+            if a == a2 {
+                circle(a, between(b, length, b2, length2).norm())
+            } else if b == b2 {
+                circle(between(a, length, a2, length2), b.norm())
+            } else {
+                None
+            }
+        }
+        (Dyad::RR { a, b, .. }, Dyad::PR { a: on, u, b: b2 })
+        | (Dyad::PR { a: on, u, b: b2 }, Dyad::RR { a, b, .. })
+            if b == b2 =>
+        {
+            let u = u.normalize();
+            circle(on + u * u.dot(&(a - on)), b.norm())
+        }
+        (Dyad::RR { a, .. }, Dyad::RP { a: a2, b, v, offset })
+        | (Dyad::RP { a: a2, b, v, offset }, Dyad::RR { a, .. })
+            if a == a2 =>
+        {
+            circle(a, (b + left(v.normalize()) * beside(v, offset)).norm())
+        }
+        (Dyad::PR { a, u, b }, Dyad::PR { a: a2, u: u2, b: b2 }) if u == u2 => {
+            let across = left(u.normalize());
+            let towards = across * across.dot(&(a2 - a)).signum();
+            let turn = product(conjugate((b2 - b).try_normalize(0.0)?), towards);
+            Some(one.at_orientation(turn))
+        }
+        _ => None,
     }
 }
 

@@ -380,7 +380,7 @@ fn either(middle: f64, above: f64, below: f64, tol: f64) -> ArrayVec<f64, 2> {
 }
 
 /// The distance `d` of an RP dyad.
-fn beside(v: Vector2<f64>, offset: Offset) -> f64 {
+pub(super) fn beside(v: Vector2<f64>, offset: Offset) -> f64 {
     match offset {
         Offset::Distance(d) => d,
         Offset::TimesDirection(delta) => delta / v.norm(),

@@ -1,91 +1,10 @@
-//! How workspaces change with the design: gradients against differences, stacks against their slices, searches against known tops.
+//! Stacks against their slices, searches against known tops, voids of strokes.
 
 use assur::plane::PhiRange;
 use assur::workspace::{DesignChoice, StrokeVoid, WorkspaceKind, WorkspaceModes};
-use assur::{DesignKey, DesignNumber, Leg, Manipulator};
+use assur::{DesignKey, Leg, Manipulator};
 
-use crate::membership::{kind_of, modes_of, written};
-use crate::models::{Case, TROUBLES, Trouble, golden, golden_manipulator, questions, random_case, scale};
-use crate::oracle::Oracle;
-
-/// Numbers of a design that every leg type has, and those of its limits.
-const KEYS: [&str; 10] = [
-    "leg1.base.at.x",
-    "leg2.base.angle",
-    "leg3.platform.at.y",
-    "reference.x",
-    "leg1.links1.at.x",
-    "leg2.links2.at.y",
-    "leg3.links2.at.x",
-    "leg1.limits.max",
-    "leg2.limits.min",
-    "leg3.platform.angle",
-];
-
-fn area(case: &Case, kind: &WorkspaceKind, number: DesignNumber, value: f64) -> Option<f64> {
-    let mut robot = case.robot.clone();
-    robot.set_design_number(number, value).ok()?;
-    Some(robot.workspace(kind, &modes_of(case)).ok()?.region.area)
-}
-
-fn compare(kinds: std::ops::Range<usize>, every: usize) {
-    let (mut asked, mut kinks) = (0, 0);
-    for number in (0..100 * scale()).step_by(every) {
-        let trouble = TROUBLES[(number / 10 % 10) as usize];
-        // At these the area has kinks by construction.
-        if [Trouble::Sliver, Trouble::Tangent, Trouble::ReferenceInPivot, Trouble::Symmetric, Trouble::CoincidentBases]
-            .contains(&trouble)
-        {
-            continue;
-        }
-        let case = random_case(number, trouble);
-        let size = Oracle::of(&case.robot, case.modes).size;
-        for index in kinds.clone() {
-            let kind = kind_of(questions(&case, number)[index], index);
-            let Ok(workspace) = case.robot.workspace(&kind, &modes_of(&case)) else { continue };
-            if workspace.region.loops.is_empty() {
-                continue;
-            }
-            for text in KEYS {
-                let key: DesignKey = text.parse().expect("a name");
-                let Ok(numbers) = key.numbers(&case.robot) else { continue };
-                let slope = case.robot.area_gradient(&workspace, &modes_of(&case), &numbers).expect("is covered")[0];
-                let here = case.robot.design_number(numbers[0]).expect("is there");
-                let h = 1e-5 * if key.is_angle(&case.robot) { 1.0 } else { size };
-                let around = [-2.0, -1.0, 1.0, 2.0].map(|k| area(&case, &kind, numbers[0], here + k * h));
-                let [Some(a), Some(b), Some(c), Some(d)] = around else { continue };
-                let middle = workspace.region.area;
-                let (left, right) = ((middle - a) / (2.0 * h), (d - middle) / (2.0 * h));
-                let difference = (8.0 * (c - b) - (d - a)) / (12.0 * h);
-                asked += 1;
-                let unit = size * size / if key.is_angle(&case.robot) { 1.0 } else { size };
-                // Where a piece begins or ends within the step the differences say nothing.
-                if (left - right).abs() > 3e-3 * unit {
-                    kinks += 1;
-                    continue;
-                }
-                assert!(
-                    (slope - difference).abs() < 2e-6 * unit + 0.05 * (left - right).abs(),
-                    "{}, {kind:?}, {text}: slope {slope}, difference {difference} (left {left}, right {right})\n{}",
-                    case.kind,
-                    written(&case)
-                );
-            }
-        }
-    }
-    assert!(asked > 60 && kinks * 10 < asked, "{asked} slopes, {kinks} kinks");
-}
-
-#[test]
-fn gradients_of_constant_total_and_dextrous_areas_are_those_of_differences() {
-    compare(0..1, 3);
-    compare(3..5, 3);
-}
-
-#[test]
-fn gradients_of_maximal_and_inclusive_areas_are_those_of_differences() {
-    compare(1..3, 7);
-}
+use crate::models::{golden, golden_manipulator};
 
 #[test]
 fn a_stack_has_the_volume_of_its_slices() {

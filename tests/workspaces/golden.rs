@@ -8,11 +8,16 @@ use serde_json::Value;
 use crate::membership::kind_of;
 use crate::models::{golden, golden_manipulator, golden_question};
 
-fn number(value: &Value) -> f64 {
-    value.as_f64().expect("a number")
+pub fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is a number"))
 }
 
-fn kind(case: &Value) -> WorkspaceKind {
+pub fn numbers<const N: usize>(value: &Value) -> [f64; N] {
+    std::array::from_fn(|k| number(&value[k]))
+}
+
+/// The question of a golden case in the words of the library.
+pub fn kind(case: &Value) -> WorkspaceKind {
     let names = ["constant", "maximal", "inclusive", "total", "dextrous"];
     let index = names.iter().position(|name| case["kind"] == *name).expect("a kind");
     kind_of(golden_question(case), index)

@@ -2,14 +2,18 @@
 //!
 //! `ASSUR_TEST_SCALE` multiplies how many random manipulators are asked.
 
+mod arcs;
+mod areas;
 mod assemblies;
 mod design;
 mod faces;
 mod golden;
+mod gradients;
 mod membership;
 mod models;
 mod oracle;
 #[path = "../random/mod.rs"]
 mod random;
+mod reachable;
 mod regions;
 mod selfcheck;

@@ -8,6 +8,10 @@ use assur::workspace::{ArcCurve, BoundaryArc, Reach, Region, WorkspaceKind, Work
 use assur::{JointKind, Leg, Manipulator};
 use serde_json::Value;
 
+use crate::golden::{kind as golden_kind, number, numbers};
+use crate::models::{golden, golden_manipulator, scale};
+use crate::random::Random;
+
 type Point = Vector2<f64>;
 
 /// Pieces of the boundary of a region, loop after loop.
@@ -16,7 +20,7 @@ fn arcs(region: &Region) -> Vec<BoundaryArc> {
 }
 
 /// A point of an arc, by the part of its parameter.
-fn along(arc: &BoundaryArc, part: f64) -> Point {
+pub fn along(arc: &BoundaryArc, part: f64) -> Point {
     match &arc.curve {
         ArcCurve::Line => Point::from(arc.start).lerp(&Point::from(arc.end), part),
         ArcCurve::Circle { center, radius, start_angle, end_angle } => {
@@ -65,41 +69,6 @@ fn is_one_or_none(winding: f64, inside: bool) -> bool {
 
 // ── reference values ──
 
-fn golden() -> Value {
-    let path = format!("{}/tests/golden/workspaces.json", env!("CARGO_MANIFEST_DIR"));
-    serde_json::from_str(&std::fs::read_to_string(path).expect("is readable")).expect("is JSON")
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is a number"))
-}
-
-fn numbers<const N: usize>(value: &Value) -> [f64; N] {
-    std::array::from_fn(|k| number(&value[k]))
-}
-
-/// A manipulator of the reference file: platform frame at B3, x axis towards B1.
-fn manipulator(data: &Value) -> Manipulator {
-    let leg = |k: usize| {
-        let (a, b) = (numbers::<2>(&data["A"][k]), numbers::<2>(&data["platform"][k]));
-        match data["type"].as_str() {
-            Some("RPR") => Leg { limits: [None, Some(numbers(&data["limits"][k])), None], ..Leg::rpr(a, b) },
-            Some("RRR") => {
-                let [l1, l2] = numbers(&data["links"][k]);
-                Leg::rrr(a, l1, l2, b)
-            }
-            Some("PRR") => {
-                let leg = Leg::prr(a, number(&data["alpha_deg"][k]).to_radians(), number(&data["l"][k]), b);
-                Leg { limits: [Some(numbers(&data["limits"][k])), None, None], ..leg }
-            }
-            other => panic!("{other:?}"),
-        }
-    };
-    let mut robot = Manipulator::new("", (0..3).map(leg).collect()).expect("is sound");
-    robot.reference = numbers(&data["ref"]).into();
-    robot
-}
-
 fn reach(robot: &Manipulator) -> Reach {
     robot.reach(&WorkspaceModes::Both).expect("is covered")
 }
@@ -114,17 +83,13 @@ fn region(robot: &Manipulator, kind: &WorkspaceKind) -> Region {
 fn cases(data: &Value) -> Vec<(String, Manipulator, WorkspaceKind, &Value)> {
     let all = data["cases"].as_array().expect("a list");
     let found = all.iter().filter_map(|case| {
-        let kind = match case["kind"].as_str() {
-            Some("maximal") => WorkspaceKind::Maximal,
-            Some("inclusive") => {
-                let [from, to] = numbers::<2>(&case["interval_deg"]).map(f64::to_radians);
-                WorkspaceKind::Inclusive(PhiRange { from, width: to - from })
-            }
-            _ => return None,
-        };
+        let kind = golden_kind(case);
+        if !matches!(kind, WorkspaceKind::Maximal | WorkspaceKind::Inclusive(_)) {
+            return None;
+        }
         let name = case["manipulator"].as_str().expect("a name");
         let label = format!("{name} {} {}", kind.name(), case["interval_deg"]);
-        Some((label, manipulator(&data["manipulators"][name]), kind, case))
+        Some((label, golden_manipulator(&data, name), kind, case))
     });
     found.collect()
 }
@@ -230,7 +195,7 @@ fn the_frame_and_the_order_of_legs_do_not_matter() {
 fn ranges_add_up() {
     let data = golden();
     for name in ["M2C", "M1A_cen", "RRR3", "PRR2"] {
-        let robot = manipulator(&data["manipulators"][name]);
+        let robot = golden_manipulator(&data, name);
         let reach = reach(&robot);
         let whole = region(&robot, &WorkspaceKind::Maximal);
         let full = region(&robot, &WorkspaceKind::Inclusive(PhiRange { from: 1.0, width: TAU }));
@@ -240,7 +205,7 @@ fn ranges_add_up() {
             .map(|kind| arcs(&region(&robot, &kind)))
             .collect();
         let whole = arcs(&whole);
-        let mut random = Random(7);
+        let mut random = Random::new(7);
         for _ in 0..60 {
             let point = Point::new(random.between(-20.0, 20.0), random.between(-20.0, 20.0)) * (reach.size() / 25.0);
             let (all, near) = winding(&whole, point);
@@ -262,9 +227,9 @@ fn assemblies_cover(reach: &Reach, random: &mut Random) -> Vec<f64> {
     assert!(assemblies.iter().all(|each| each.region.unclosed.is_empty()));
     let each: Vec<Vec<BoundaryArc>> = assemblies.iter().map(|each| arcs(&each.region)).collect();
     for _ in 0..40 {
-        let arc = &whole[random.below(whole.len() as u64) as usize];
+        let arc = &whole[below(random, whole.len())];
         let off = Point::new(random.between(-1.0, 1.0), random.between(-1.0, 1.0)) * (0.2 * reach.size());
-        let place = along(arc, random.unit()) + off;
+        let place = along(arc, random.between(0.0, 1.0)) + off;
         let (all, near) = winding(&whole, place);
         if near > 1e-9 * reach.size() {
             let by = each.iter().filter(|part| winding(part, place).0 > 0.5).count();
@@ -277,7 +242,7 @@ fn assemblies_cover(reach: &Reach, random: &mut Random) -> Vec<f64> {
 #[test]
 fn assemblies_of_the_reference_manipulators() {
     let data = golden();
-    let mut random = Random(3);
+    let mut random = Random::new(3);
     let expected: [(&str, &[f64]); 6] = [
         ("M1A", &[315.848]),
         ("M1_sep1", &[277.6546, 94.0087]),
@@ -288,7 +253,7 @@ fn assemblies_of_the_reference_manipulators() {
         ("PRR1", &[34.9194]),
     ];
     for (name, areas) in expected {
-        let reach = reach(&manipulator(&data["manipulators"][name]));
+        let reach = reach(&golden_manipulator(&data, name));
         let found = assemblies_cover(&reach, &mut random);
         assert_eq!(found.len(), areas.len(), "{name}: {found:?}");
         for (found, area) in found.iter().zip(areas) {
@@ -310,7 +275,7 @@ fn modes_that_never_merge_are_assemblies_of_their_own() {
         leg(0.1, 3.1, TAU / 4.0 + 0.3, [0.1, 0.5]),
     ];
     let robot = Manipulator::new("", legs).expect("is sound");
-    let all = assemblies_cover(&reach(&robot), &mut Random(5));
+    let all = assemblies_cover(&reach(&robot), &mut Random::new(5));
     let mut by_modes: Vec<f64> = Vec::new();
     for k in 0..8 {
         let modes = WorkspaceModes::Signs([1, 2, 4].iter().map(|bit| k & bit == 0).collect());
@@ -324,7 +289,7 @@ fn modes_that_never_merge_are_assemblies_of_their_own() {
 fn assemblies_cover_or_none(robot: &Manipulator, modes: &WorkspaceModes) -> Vec<f64> {
     let reach = robot.reach(modes).expect("is covered");
     let region = reach.workspace(&WorkspaceKind::Maximal).expect("is bounded").region;
-    if region.loops.is_empty() { Vec::new() } else { assemblies_cover(&reach, &mut Random(6)) }
+    if region.loops.is_empty() { Vec::new() } else { assemblies_cover(&reach, &mut Random::new(6)) }
 }
 
 /// The two poses of figure 14 of Merlet, Gosselin and Mouly are one assembly's: at (9, 14.4) their intervals of orientations are one, so the platform goes there, turns,
@@ -332,7 +297,7 @@ fn assemblies_cover_or_none(robot: &Manipulator, modes: &WorkspaceModes) -> Vec<
 #[test]
 fn the_poses_of_figure_14_are_joined_by_a_motion() {
     let data = golden();
-    let robot = manipulator(&data["manipulators"]["M1A"]);
+    let robot = golden_manipulator(&data, "M1A");
     let reach = reach(&robot);
     let (here, there) = (Point::new(7.0, 20.0), Point::new(9.0, 14.4));
     let holding = |place: Point, phi: f64| {
@@ -357,7 +322,7 @@ fn the_poses_of_figure_14_are_joined_by_a_motion() {
         assert!((workspace.region.area - 315.848).abs() < 1e-3);
     }
     // Where leg 1 is held longer the sheets stay apart.
-    let apart = self::reach(&manipulator(&data["manipulators"]["M1_sep1"]));
+    let apart = self::reach(&golden_manipulator(&data, "M1_sep1"));
     let assemblies = apart.assemblies().expect("is bounded");
     for (assembly, sheet) in assemblies.iter().zip([1.0, -1.0]) {
         // Angle of the platform line from A1 to the pivot, between 0 and pi on one sheet.
@@ -384,33 +349,12 @@ fn the_poses_of_figure_14_are_joined_by_a_motion() {
 
 // ── random manipulators ──
 
-/// SplitMix64.
-struct Random(u64);
+fn below(random: &mut Random, n: usize) -> usize {
+    random.between(0.0, n as f64) as usize
+}
 
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    fn below(&mut self, n: u64) -> u64 {
-        self.next() % n
-    }
-
-    fn chance(&mut self, p: f64) -> bool {
-        self.unit() < p
-    }
+fn chance(random: &mut Random, p: f64) -> bool {
+    random.between(0.0, 1.0) < p
 }
 
 /// What is looked for.
@@ -437,7 +381,7 @@ fn random_manipulator(random: &mut Random, trouble: Trouble) -> Manipulator {
         base[k] = Point::new(random.between(-3.0, 3.0), random.between(-3.0, 3.0)).map(snap);
         platform[k] = Point::new(random.between(-1.5, 1.5), random.between(-1.5, 1.5)).map(snap);
     }
-    if symmetric && random.chance(0.5) {
+    if symmetric && chance(random, 0.5) {
         let (r, s) = (snap(random.between(1.0, 4.0)), snap(random.between(0.5, 2.0)));
         for k in 0..3 {
             let (sin, cos) = (TAU / 3.0 * k as f64).sin_cos();
@@ -446,12 +390,12 @@ fn random_manipulator(random: &mut Random, trouble: Trouble) -> Manipulator {
         }
     }
     if trouble == Trouble::Similar {
-        let ratio = if random.chance(0.3) { 1.0 } else { random.between(0.3, 1.2) };
-        let turn = Rotation2::new(if random.chance(0.5) { 0.0 } else { random.between(-3.0, 3.0) });
+        let ratio = if chance(random, 0.3) { 1.0 } else { random.between(0.3, 1.2) };
+        let turn = Rotation2::new(if chance(random, 0.5) { 0.0 } else { random.between(-3.0, 3.0) });
         platform = base.map(|a| turn * a * ratio);
     }
-    let alike = symmetric && random.chance(0.7) || trouble == Trouble::Similar && random.chance(0.5);
-    let (first, mixed) = (random.below(3), random.chance(0.4));
+    let alike = symmetric && chance(random, 0.7) || trouble == Trouble::Similar && chance(random, 0.5);
+    let (first, mixed) = (below(random, 3), chance(random, 0.4));
     let mut legs: Vec<Leg> = Vec::new();
     for k in 0..3 {
         let (a, b) = (base[k].into(), platform[k].into());
@@ -464,16 +408,16 @@ fn random_manipulator(random: &mut Random, trouble: Trouble) -> Manipulator {
             };
             Some([from, from + length])
         };
-        let mut leg = match if mixed { random.below(3) } else { first } {
+        let mut leg = match if mixed { below(random, 3) } else { first } {
             0 => Leg { limits: [None, stroke(random, 0.0, 2.5, 3.0), None], ..Leg::rpr(a, b) },
             1 => {
                 let l1 = snap(random.between(0.5, 2.5)).max(0.5);
-                let l2 = if random.chance(0.2) { l1 } else { snap(random.between(0.5, 2.5)).max(0.5) };
+                let l2 = if chance(random, 0.2) { l1 } else { snap(random.between(0.5, 2.5)).max(0.5) };
                 Leg::rrr(a, l1, l2, b)
             }
             _ => {
                 let limits = stroke(random, -2.0, 1.0, 4.0);
-                let sixth = TAU / 6.0 * random.below(6) as f64;
+                let sixth = TAU / 6.0 * below(random, 6) as f64;
                 let alpha = if symmetric { sixth } else { random.between(-3.1, 3.1) };
                 let l = snap(random.between(0.6, 2.5)).max(0.5);
                 Leg { limits: [limits, None, None], ..Leg::prr(a, alpha, l, b) }
@@ -482,7 +426,7 @@ fn random_manipulator(random: &mut Random, trouble: Trouble) -> Manipulator {
         if trouble == Trouble::Ranges {
             for limits in leg.limits.iter_mut().filter(|limits| limits.is_none()) {
                 let from = random.between(-3.1, 3.1);
-                if random.chance(0.5) {
+                if chance(random, 0.5) {
                     *limits = Some([from, from + random.between(0.3, 5.0)]);
                 }
             }
@@ -493,34 +437,28 @@ fn random_manipulator(random: &mut Random, trouble: Trouble) -> Manipulator {
         legs.push(leg);
     }
     let mut robot = Manipulator::new("", legs).expect("is sound");
-    if trouble == Trouble::ReferenceAtPivot || symmetric && random.chance(0.5) {
-        robot.reference = platform[random.below(3) as usize];
+    if trouble == Trouble::ReferenceAtPivot || symmetric && chance(random, 0.5) {
+        robot.reference = platform[below(random, 3)];
     } else if !symmetric {
         robot.reference = Point::new(random.between(-1.0, 1.0), random.between(-1.0, 1.0));
     }
     robot
 }
 
-/// How many random manipulators of each kind; the environment scales it.
-fn count(of: usize) -> usize {
-    let scale = std::env::var("ASSUR_TEST_SCALE").ok().and_then(|text| text.parse::<f64>().ok()).unwrap_or(1.0);
-    (of as f64 * scale).ceil() as usize
-}
-
 /// Loops wind once around the places that exact membership holds, none around others, everywhere further than 1e-9 of the
 /// mechanism's size from the boundary; half of the places are sought close to the boundary.
 fn places_agree(trouble: Trouble) {
-    for seed in 0..count(40) as u64 {
-        let mut random = Random(seed * 6 + trouble as u64 + 1);
+    for seed in 0..40 * scale() {
+        let mut random = Random::new(seed * 6 + trouble as u64 + 1);
         let robot = random_manipulator(&mut random, trouble);
-        let kind = if random.chance(0.4) {
+        let kind = if chance(&mut random, 0.4) {
             let from = random.between(-3.1, 3.1);
             WorkspaceKind::Inclusive(PhiRange::between(from, from + 10f64.powf(random.between(-2.0, 0.7))))
         } else {
             WorkspaceKind::Maximal
         };
-        let modes = if random.chance(0.3) {
-            WorkspaceModes::Signs((0..3).map(|_| random.chance(0.7)).collect())
+        let modes = if chance(&mut random, 0.3) {
+            WorkspaceModes::Signs((0..3).map(|_| chance(&mut random, 0.7)).collect())
         } else {
             WorkspaceModes::Both
         };
@@ -534,10 +472,11 @@ fn places_agree(trouble: Trouble) {
             (0..25).map(|_| Point::new(random.between(-6.0, 6.0), random.between(-6.0, 6.0))).collect();
         if !arcs.is_empty() {
             for _ in 0..25 {
-                let arc = &arcs[random.below(arcs.len() as u64) as usize];
+                let arc = &arcs[below(&mut random, arcs.len())];
                 let part = random.between(0.01, 0.99);
                 let along_it = along(arc, part + 1e-4) - along(arc, part - 1e-4);
-                let off = size * 10f64.powf(random.between(-8.5, -1.0)) * if random.chance(0.5) { 1.0 } else { -1.0 };
+                let off =
+                    size * 10f64.powf(random.between(-8.5, -1.0)) * if chance(&mut random, 0.5) { 1.0 } else { -1.0 };
                 if along_it.norm() > 0.0 {
                     places.push(along(arc, part) + Point::new(-along_it.y, along_it.x) * (off / along_it.norm()));
                 }

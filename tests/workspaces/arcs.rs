@@ -8,55 +8,9 @@ use assur::workspace::{Isolated, Region, WorkspaceKind, WorkspaceModes};
 use assur::{Leg, Manipulator};
 use serde_json::Value;
 
-fn golden(name: &str) -> Value {
-    let path = format!("{}/tests/golden/{name}", env!("CARGO_MANIFEST_DIR"));
-    serde_json::from_str(&std::fs::read_to_string(path).expect("is readable")).expect("is JSON")
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is a number"))
-}
-
-fn numbers<const N: usize>(value: &Value) -> [f64; N] {
-    std::array::from_fn(|k| number(&value[k]))
-}
-
-/// A manipulator of the reference file: platform frame at B3, x axis towards B1.
-fn manipulator(data: &Value) -> Manipulator {
-    let leg = |k: usize| {
-        let (a, b) = (numbers::<2>(&data["A"][k]), numbers::<2>(&data["platform"][k]));
-        match data["type"].as_str() {
-            Some("RPR") => Leg { limits: [None, Some(numbers(&data["limits"][k])), None], ..Leg::rpr(a, b) },
-            Some("RRR") => {
-                let [l1, l2] = numbers(&data["links"][k]);
-                Leg::rrr(a, l1, l2, b)
-            }
-            Some("PRR") => {
-                let leg = Leg::prr(a, number(&data["alpha_deg"][k]).to_radians(), number(&data["l"][k]), b);
-                Leg { limits: [Some(numbers(&data["limits"][k])), None, None], ..leg }
-            }
-            other => panic!("{other:?}"),
-        }
-    };
-    let mut robot = Manipulator::new("", (0..3).map(leg).collect()).expect("is sound");
-    robot.reference = numbers(&data["ref"]).into();
-    robot
-}
-
-fn kind(case: &Value) -> WorkspaceKind {
-    let range = || {
-        let [from, to] = numbers::<2>(&case["interval_deg"]);
-        PhiRange { from: from.to_radians(), width: (to - from).to_radians() }
-    };
-    match case["kind"].as_str() {
-        Some("constant") => WorkspaceKind::Constant { phi: number(&case["theta_deg"]).to_radians() },
-        Some("maximal") => WorkspaceKind::Maximal,
-        Some("inclusive") => WorkspaceKind::Inclusive(range()),
-        Some("total") => WorkspaceKind::Total(range()),
-        Some("dextrous") => WorkspaceKind::Dextrous,
-        other => panic!("{other:?}"),
-    }
-}
+use crate::golden::{kind, number, numbers};
+use crate::models::{golden, golden_manipulator, scale};
+use crate::random::Random;
 
 /// Whether two angles are the same to the digits of the reference.
 fn near(a: f64, b: f64) -> bool {
@@ -78,11 +32,11 @@ fn joined(intervals: &Value) -> Vec<[f64; 2]> {
 
 #[test]
 fn points_of_every_case_are_told_in_from_out() {
-    let data = golden("workspaces.json");
+    let data = golden();
     let (mut points, mut sets) = (0, 0);
     for case in data["cases"].as_array().expect("a list") {
         let name = case["manipulator"].as_str().expect("a name");
-        let reach = manipulator(&data["manipulators"][name]).reach(&WorkspaceModes::Both).expect("is covered");
+        let reach = golden_manipulator(&data, name).reach(&WorkspaceModes::Both).expect("is covered");
         for row in case["points"].as_array().into_iter().flatten() {
             let [x, y, inside, clear] = numbers(row);
             if clear.abs() < 1e-9 {
@@ -128,15 +82,13 @@ fn closes(region: &Region) {
 
 #[test]
 fn areas_pieces_and_boxes_are_those_of_the_reference() {
-    let data = golden("workspaces.json");
+    let data = golden();
     let mut cases = 0;
     for case in data["cases"].as_array().expect("a list").iter().filter(|case| of_arcs(case)) {
         let name = case["manipulator"].as_str().expect("a name");
         let kind = kind(case);
-        let region = manipulator(&data["manipulators"][name])
-            .workspace(&kind, &WorkspaceModes::Both)
-            .expect("is covered")
-            .region;
+        let region =
+            golden_manipulator(&data, name).workspace(&kind, &WorkspaceModes::Both).expect("is covered").region;
         closes(&region);
         let about = format!("{name} {kind:?}: {} {} {}", region.area, region.components, region.holes);
         println!("{about} expected {} +- {} {} {}", case["area"], case["area_err"], case["components"], case["holes"]);
@@ -162,7 +114,7 @@ fn areas_pieces_and_boxes_are_those_of_the_reference() {
 /// Designs with sliders: areas and perimeters in all working modes.
 #[test]
 fn slider_designs_have_their_areas_in_every_mode() {
-    let data = golden("spatial.json");
+    let data: Value = serde_json::from_str(include_str!("../golden/spatial.json")).expect("is JSON");
     let mut cases = 0;
     for (name, design) in data["prr"].as_object().expect("a table") {
         let Some(workspaces) = design["workspace"].as_array() else { continue };
@@ -214,15 +166,12 @@ fn a_dextrous_workspace_can_be_an_arc_or_a_point() {
     assert!((ends[0] + 56.42).abs() < 0.01 && (ends[1] + 40.97).abs() < 0.01, "{ends:?}");
     assert_eq!(arc.active.iter().map(ToString::to_string).collect::<Vec<_>>(), ["leg 1 min", "leg 1 max"]);
 
-    let data = golden("workspaces.json");
-    let point = dextrous(&manipulator(&data["manipulators"]["RRR1"]));
+    let data = golden();
+    let point = dextrous(&golden_manipulator(&data, "RRR1"));
     let [Isolated::Point { at, active }] = &point.isolated[..] else { panic!("{:?}", point.isolated) };
     assert!((at[0] - 5.0).abs() < 1e-12 && at[1].abs() < 1e-12);
     assert!(active.len() >= 4, "{active:?}");
 }
-
-mod random;
-use random::Random;
 
 /// A leg of one of the three chains about a unit in size, its joint frames anywhere, each joint with a range or without.
 fn random_leg(random: &mut Random, ranges: bool) -> Leg {
@@ -266,11 +215,6 @@ fn modes(random: &mut Random) -> WorkspaceModes {
     } else {
         WorkspaceModes::Signs((0..3).map(|_| random.between(0.0, 1.0) < 0.5).collect())
     }
-}
-
-fn scale(count: usize) -> usize {
-    let factor = std::env::var("ASSUR_TEST_SCALE").ok().and_then(|text| text.parse().ok()).unwrap_or(1.0);
-    (count as f64 * factor).ceil() as usize
 }
 
 /// Whether a region holds a point, by counting crossings of the ray to the right; `None` where the ray grazes a vertex.
@@ -321,8 +265,8 @@ fn holds(region: &Region, [x, y]: [f64; 2]) -> Option<bool> {
 #[test]
 fn loops_hold_what_membership_admits() {
     let mut random = Random::new(0x5eed_0007);
-    let (mut compared, mut filled) = (0, 0);
-    for case in 0..scale(600) {
+    let (mut compared, mut filled) = (0u64, 0u64);
+    for case in 0..600 * scale() {
         let robot = random_robot(&mut random, case % 2 == 1);
         let modes = modes(&mut random);
         let from = random.between(-3.0, 3.0);
@@ -340,7 +284,7 @@ fn loops_hold_what_membership_admits() {
             region.unclosed.len()
         );
         closes(&region);
-        filled += usize::from(region.area > 0.0);
+        filled += u64::from(region.area > 0.0);
         let bbox = region.bbox.unwrap_or([-2.0, -2.0, 2.0, 2.0]);
         for _ in 0..40 {
             let at = [random.between(bbox[0] - 0.1, bbox[2] + 0.1), random.between(bbox[1] - 0.1, bbox[3] + 0.1)];
@@ -350,14 +294,14 @@ fn loops_hold_what_membership_admits() {
         }
     }
     println!("{compared} points, {filled} with area");
-    assert!(compared > scale(10_000) && filled > scale(100));
+    assert!(compared > 10_000 * scale() && filled > 100 * scale());
 }
 
 #[test]
 fn margins_are_radii_of_discs_inside() {
     let mut random = Random::new(0x5eed_0008);
-    let mut inside = 0;
-    for case in 0..scale(120) {
+    let mut inside = 0u64;
+    for case in 0..120 * scale() {
         let robot = random_robot(&mut random, case % 2 == 1);
         let reach = robot.reach(&modes(&mut random)).expect("is covered");
         let moves = robot.legs.iter().any(|leg| leg.limits[2].is_some());
@@ -405,7 +349,7 @@ fn margins_are_radii_of_discs_inside() {
             );
         }
     }
-    assert!(inside > scale(30), "{inside}");
+    assert!(inside > 30 * scale(), "{inside}");
 }
 
 #[test]
