@@ -263,11 +263,12 @@ class ArcRegion(Report):
 
 @dataclass(frozen=True, eq=False)
 class Supremum:
-    """The largest capability (radians), where, and whether it is had or only approached."""
+    """The largest capability (radians), where, whether it is had or only approached, and a bound shown for every place."""
 
     zeta: float
     at: FloatArray
     attained: bool
+    at_most: float
 
 
 @dataclass(frozen=True, eq=False)

@@ -175,7 +175,7 @@ pub fn hana_capability_json(
     curve: &[(f64, Option<f64>)],
 ) -> String {
     let best = supremum
-        .map(|best| json!({ "zeta": best.zeta, "at": best.at, "attained": best.attained }));
+        .map(|best| json!({ "zeta": best.zeta, "at": best.at, "attained": best.attained, "at_most": best.at_most }));
     let mut document = json!({ "schema": "assur/hana-capability/1", "supremum": best });
     if let Some((place, found)) = at {
         document["at"] = json!(place);
