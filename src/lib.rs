@@ -133,8 +133,9 @@ pub use spatial::{
     HanaMode, HanaPose, HanaSingularKind, HanaSingularity, HanaUnreachable, HanaVelocity, HanaViolation, HanaWay,
     HanaWays, Hexapteron, LinkCurve, MixedReach, MixedSingularity, Multipteron, MultipteronError, MultipteronPoses,
     Orientations, PlaneConditions, Quadrupteron, SpatialError, SpatialRemark, Tilt, TiltLimit, Tripod,
-    TripodAssemblies, TripodAssembly, TripodDesign, TripodError, TripodLeg, TripodPointing, TripodPose, TripodReach,
-    TripodSingularity, TripodStatus, TripodVelocity, Tripteron, WorkspaceArc, WorkspaceCurve,
+    TripodAssemblies, TripodAssembly, TripodDesign, TripodError, TripodLeg, TripodPointed, TripodPointing, TripodPose,
+    TripodReach, TripodSingularity, TripodStatus, TripodTorsions, TripodVelocity, Tripteron, WorkspaceArc,
+    WorkspaceCurve,
 };
 
 pub use plane::{AngleSet, PhiRange};

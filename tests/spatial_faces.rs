@@ -294,6 +294,21 @@ fn variants_with_fewer_degrees_of_freedom() {
         }
     }
     assert!(text(&["tripod", "inverse", &five, &pose, &direction]).contains("as rho a"));
+    assert_eq!(found["status"], "complete");
+    // The tool's axis along leg 1's, a direction in leg 1's plane: torsion is free; out of it, nothing points there.
+    let free = std::fs::read_to_string(&five)
+        .expect("is there")
+        .replace("tool_axis = [1.0, 1.0, 1.0]", "tool_axis = [0.0, 1.0, 0.0]");
+    let file = folder("tripod").join("free.toml");
+    std::fs::write(&file, free).expect("can be written");
+    let free = file.to_str().expect("plain");
+    let ask = |direction: &'static str| ["tripod", "inverse", free, "--pose=200,260,240", direction];
+    let every = json(&[&ask("--direction=0,0.8,0.6")[..], &["--json"]].concat());
+    assert_eq!((every["status"].as_str(), number(&every["solutions"][0]["torsion"])), (Some("every_torsion"), 0.0));
+    assert!(text(&ask("--direction=0,0.8,0.6")).contains("every torsion points the tool there"));
+    let none = json(&[&ask("--direction=0.6,0.8,0")[..], &["--json"]].concat());
+    assert_eq!((none["status"].as_str(), none["solutions"].as_array().map(Vec::len)), (Some("complete"), Some(0)));
+    assert!(text(&ask("--direction=0.6,0.8,0")).contains("no orientation points the tool there"));
     assert!(refused(&["tripod", "inverse", &five, "--pose=0,0,0,0,0,5"]).contains("leg 1: has one motor"));
     assert!(refused(&["tripod", "forward", &five, "--inputs=1,2,3,4,5,6"]).contains("leg 1: has one motor"));
     assert!(refused(&["tripod", "forward", &five, "--inputs=1,2,3,4"]).contains("inputs: 4 given, must be 5"));

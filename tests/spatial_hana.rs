@@ -592,3 +592,64 @@ fn nothing_tilts_where_a_slider_is_at_its_end() {
     }
     assert!(inside > 100, "{inside}");
 }
+
+/// What is shown to bound every place does: against places anywhere and against climbing from the best of them, in all modes that have the index, for platforms larger than the base as well.
+#[test]
+fn no_place_exceeds_the_bound() {
+    const PLACES: usize = 1500;
+    let mut random = Random::new(2004);
+    let (mut tried, mut tight, mut climbed, mut in_line, mut large) = (0, 0, 0, 0, 0);
+    while tried < 120 {
+        let above = [[true, true], [false, false]][tried % 2];
+        let mode = HanaMode { above: [above[0], above[1], tried % 4 < 2] };
+        let mut ends = || {
+            let low = random.between(-6.0, 2.0);
+            [low, low + random.between(0.5, 9.0)]
+        };
+        let (one, three) = (ends(), ends());
+        let radii = [random.between(1.0, 8.0), random.between(1.0, 12.0)];
+        let links = [random.between(4.0, 16.0), random.between(4.0, 16.0)];
+        let robot = Hana::new(radii[0], radii[1], links[0], links[1], [one, one, three]).expect("is sound");
+        let Some(best) = robot.capability_supremum(mode).expect("is covered") else { continue };
+        tried += 1;
+        tight += usize::from(best.at_most - best.zeta <= 1.1e-9);
+        large += usize::from(radii[0] > radii[1]);
+        assert!((0.0..=1e-6).contains(&(best.at_most - best.zeta)), "{robot:?} {mode} {best:?}");
+        let region = robot.workspace(0.0, mode).expect("finite");
+        let boxes: Vec<[[f64; 2]; 2]> = region
+            .loops
+            .iter()
+            .map(|(_, arcs)| {
+                let side = |k: usize| {
+                    let ends = arcs.iter().map(|arc| arc.start[k]);
+                    [ends.clone().fold(f64::INFINITY, f64::min), ends.fold(f64::NEG_INFINITY, f64::max)]
+                };
+                [side(0), side(1)]
+            })
+            .collect();
+        let zeta = |at: [f64; 2]| {
+            let found = robot.capability(at, mode).expect("finite");
+            let stops = found.map_or([assur::CapabilityStop::Level; 2], |found| found.stops);
+            (found.map_or(0.0, |found| found.zeta), stops.contains(&assur::CapabilityStop::InLine))
+        };
+        let (mut most, mut place) = (0.0, [0.0; 2]);
+        let mut width = boxes[0].map(|[low, high]| high - low);
+        for k in 0..2 * PLACES {
+            let within = boxes[k % boxes.len()];
+            let anywhere = within.map(|[low, high]| random.between(low, high));
+            let beside = [0, 1].map(|k| place[k] + random.between(-width[k], width[k]));
+            let at = if k < PLACES { anywhere } else { beside };
+            let (found, line) = zeta(at);
+            assert!(found <= best.at_most, "{robot:?} {mode} {at:?} {found} {best:?}");
+            in_line += usize::from(line);
+            if found > most {
+                (most, place) = (found, at);
+            } else if k > PLACES {
+                width = width.map(|w| w * 0.99);
+            }
+        }
+        climbed += usize::from(most >= best.zeta - 0.01);
+    }
+    // Climbing at random does not end in every corner.
+    assert!(tight >= 100 && climbed >= 100 && in_line > 100 && large > 10, "{tight} {climbed} {in_line} {large}");
+}

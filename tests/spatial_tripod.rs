@@ -5,7 +5,7 @@ mod random;
 use assur::nalgebra::{Matrix3, Rotation3, Vector3, Vector6};
 use assur::{
     CartesianRobot, CartesianSingular, Counted, Hexapteron, PlaneConditions, Quadrupteron, Tripod, TripodDesign,
-    TripodLeg, TripodPose, TripodSingularity, TripodStatus,
+    TripodLeg, TripodPose, TripodSingularity, TripodStatus, TripodTorsions,
 };
 use random::Random;
 use serde_json::Value;
@@ -347,7 +347,8 @@ fn fewer_degrees_of_freedom() {
     let data = &golden()["tripod6"];
     let (robot, general) = (CartesianRobot { d1: 600.0, d2: 720.0 }, Tripod::cartesian(600.0, 720.0).expect("sound"));
     let case = &data["dof5"];
-    let found = robot.five_dof_orientations(&Vector3::repeat(1.0), &vector(&case["tool_dir"]));
+    let found = robot.five_dof_orientations(&Vector3::repeat(1.0), &vector(&case["tool_dir"])).expect("directions");
+    let TripodTorsions::Isolated(found) = found else { panic!("{found:?}") };
     let solutions = case["solutions"].as_array().expect("a list");
     assert_eq!((found.len(), solutions.len()), (2, 2));
     for ((torsion, rotation), solution) in found.iter().zip(solutions) {
@@ -367,6 +368,60 @@ fn fewer_degrees_of_freedom() {
     let pose = robot.forward_four(&[rho[0], rho[2], rho[4], rho[5]]).expect("never singular");
     let turned = Rotation3::new(Vector3::y() * case["rotation_about_y"].as_f64().expect("an angle"));
     assert!((pose.position - vector(&case["p"])).norm() < 1e-9 && apart(&pose.rotation, &turned) < 1e-12);
+}
+
+/// What leaves torsion free is told from what no torsion reaches, whatever rounding makes of it; legs whose axes point anywhere.
+#[test]
+fn every_torsion_is_no_empty_list() {
+    let mut random = Random::new(20_260);
+    for round in 0..2000 {
+        let turn = Rotation3::new(Vector3::from_fn(|_, _| random.between(-3.0, 3.0)));
+        let home = Rotation3::new(Vector3::from_fn(|_, _| random.between(-3.0, 3.0)));
+        let robot = Tripod::cartesian(600.0, 720.0).expect("sound");
+        let legs = robot.legs.map(|leg| TripodLeg {
+            u: turn * leg.u,
+            w: turn * leg.w,
+            v: home * leg.v,
+            da: turn * leg.da,
+            db: turn * leg.db,
+            ..leg
+        });
+        let leg = round % 3;
+        let robot = Tripod::new(legs).expect("sound").with_one_motor(std::array::from_fn(|k| k == leg));
+        let (normal, axis) = (robot.legs[leg].u, robot.legs[leg].v);
+        let angle = random.between(-3.0, 3.0);
+        let inside = Rotation3::new(normal * angle) * robot.legs[leg].w;
+        let beside = axis.cross(&Vector3::new(0.3, -0.7, 0.6)).normalize();
+        let tilted = (inside + normal * 1e-6).normalize();
+        for (tool_axis, direction, every) in [
+            (axis, inside, true),
+            (-axis, inside, true),
+            (beside, normal, true),
+            (beside, -normal, true),
+            (axis, tilted, false),
+            (axis, normal, false),
+        ] {
+            let robot = Tripod { tool_axis, ..robot.clone() };
+            match robot.pointing(&direction).expect("a direction") {
+                TripodTorsions::Every(rotation) => {
+                    assert!(every, "{round}: {direction}");
+                    for torsion in [0.0, 1.0, -2.0] {
+                        let rotation = Rotation3::new(direction * torsion) * rotation;
+                        assert!((rotation * tool_axis - direction).norm() < 1e-14);
+                        assert!(normal.dot(&(rotation * axis)).abs() < 1e-14);
+                    }
+                }
+                TripodTorsions::Isolated(found) => assert!(!every && found.is_empty(), "{round}: {found:?}"),
+            }
+        }
+        // Where two torsions meet, rounding does not lose them: tool axis and leg's axis at the angle of direction and plane.
+        let (s, c) = angle.sin_cos();
+        let robot = Tripod { tool_axis: axis * c + beside * s, ..robot };
+        match robot.pointing(&(inside * c + normal * s)).expect("a direction") {
+            TripodTorsions::Isolated(found) => assert!((1..=2).contains(&found.len()), "{round}"),
+            TripodTorsions::Every(_) => panic!("{round}"),
+        }
+    }
 }
 
 #[test]

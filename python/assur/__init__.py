@@ -11,6 +11,7 @@ draw themselves in a notebook, and keep the report that the command line prints 
 """
 
 from ._assur import __version__
+from ._spatial_batch import HanaVelocityBatch, TripodVelocityBatch
 from .claims import Claim, Verification
 from .errors import AssurError, InputError, ModelError
 from .groups import CouplerCurve, GroupAssemblies, LinkageAssemblies, coupler, group, triad
@@ -23,8 +24,18 @@ from .multipteron import Multipteron, MultipteronInputs, MultipteronPoses
 from .paths import FollowedPath
 from .poses import VelocityBatch, WorkingModesBatch
 from .sweeps import Design, Sweep, sweep, vary
-from .tripod import DeterminantCurves, Tilt, TiltMap, Tripod, TripodAssemblies, TripodVelocity, TripodWay
-from .workspaces import Region
+from .tripod import (
+    DeterminantCurves,
+    Pointed,
+    Tilt,
+    TiltMap,
+    Torsions,
+    Tripod,
+    TripodAssemblies,
+    TripodVelocity,
+    TripodWay,
+)
+from .workspaces import Region, StrokeVoid
 
 __all__ = [
     "Account",
@@ -41,6 +52,7 @@ __all__ = [
     "HanaAssemblies",
     "HanaTilts",
     "HanaVelocity",
+    "HanaVelocityBatch",
     "HanaWays",
     "InputError",
     "LinkageAssemblies",
@@ -51,14 +63,18 @@ __all__ = [
     "Multipteron",
     "MultipteronInputs",
     "MultipteronPoses",
+    "Pointed",
     "Region",
     "SingularityLoci",
+    "StrokeVoid",
     "Sweep",
     "Tilt",
     "TiltMap",
+    "Torsions",
     "Tripod",
     "TripodAssemblies",
     "TripodVelocity",
+    "TripodVelocityBatch",
     "TripodWay",
     "Velocity",
     "VelocityBatch",

@@ -5,6 +5,7 @@ Filled circles are actuated joints, open ones passive; thick lines are sliders; 
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -20,7 +21,7 @@ from .motion import WorkingModes
 from .paths import FollowedPath
 from .sweeps import Sweep
 from .tripod import DeterminantCurves, TiltMap
-from .workspaces import POINTS, Region
+from .workspaces import Isolated, POINTS, Region
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -384,24 +385,51 @@ def region(answer: Region, ax: Axes | None, label: str | None) -> Axes:
     """A workspace: filled, its boundary coloured by the limit that is active there, or in one colour among others."""
     ax = _axes(ax)
     outlines = answer.outlines()
-    if label is None:
+    if answer.overlays:
+        # Over one another each is in one colour under its name.
+        _outlined(ax, outlines, label or answer.kind)
+        for other, others in zip(answer.overlays, answer.overlay_outlines(), strict=True):
+            _outlined(ax, others, other._label())
+        isolated = COLOURS[0]
+    elif label is None:
         _filled(ax, outlines, COLOURS[1])
         _by_limit(ax, answer, outlines)
         isolated = COLOURS[0]
-        ax.set_title(f"{answer.kind}: " + (f"area {answer.area:.8g}" if answer.components else "empty"))
+        ax.set_title(f"{answer.kind}: " + (f"area {answer.area:.8g}" if answer.components else "no area" if answer.isolated else "empty"))
+        if not outlines and not answer.isolated:
+            # Axes without data have a scale that means nothing.
+            ax.set(xticks=[], yticks=[])
+            ax.text(0.5, 0.5, "empty", transform=ax.transAxes, ha="center", va="center", color="#8a949e")
     else:
-        isolated = _colour(len(ax.get_legend_handles_labels()[1]))
-        _filled(ax, outlines, isolated)
-        for place, line in enumerate(outlines):
-            ax.plot(*line.T, color=isolated, lw=1.6, label=None if place else label)
-        if not outlines:
-            ax.plot([], [], color=isolated, lw=1.6, label=f"{label} (empty)")
-        ax.legend(fontsize="small")
+        isolated = _outlined(ax, outlines, label)
     for part in answer.isolated:
-        if part.at is not None:
-            ax.plot(*part.at, ".", color=isolated)
+        _isolated(ax, part, isolated)
     ax.autoscale_view()
     return ax
+
+
+def _isolated(ax: Axes, part: Isolated, colour: str) -> None:
+    """A point, an arc or a segment without area; of other curves the ends."""
+    if part.at is not None:
+        ax.plot(*part.at, ".", color=colour)
+    elif part.center is not None and part.radius is not None and part.start_angle is not None and part.end_angle is not None:
+        turn = np.linspace(part.start_angle, part.end_angle, POINTS)
+        ax.plot(part.center[0] + part.radius * np.cos(turn), part.center[1] + part.radius * np.sin(turn), color=colour, lw=1.6)
+    elif part.start is not None and part.end is not None:
+        ends = np.array([part.start, part.end])
+        ax.plot(*ends.T, "-" if part.curve == "line" else ".", color=colour, lw=1.6)
+
+
+def _outlined(ax: Axes, outlines: list[Points], label: str) -> str:
+    """A region among others: filled and bounded in the next colour, which is returned, under its name."""
+    colour = _colour(len(ax.get_legend_handles_labels()[1]))
+    _filled(ax, outlines, colour)
+    for place, line in enumerate(outlines):
+        ax.plot(*line.T, color=colour, lw=1.6, label=None if place else label)
+    if not outlines:
+        ax.plot([], [], color=colour, lw=1.6, label=f"{label} (empty)")
+    ax.legend(fontsize="small")
+    return colour
 
 
 def _by_limit(ax: Axes, answer: Region, outlines: list[Points]) -> None:
@@ -467,18 +495,33 @@ def tilts(answer: HanaTilts, ax: Axes | None) -> Axes:
             np.degrees(answer.map.grid), origin="lower", extent=(left, right, bottom, top), cmap="viridis", interpolation="nearest"
         )
         ax.figure.colorbar(image, ax=ax, label="rotational capability (°)")
-    if answer.at is not None:
+        # The cells are as coarse as they are; the boundary is exact.
+        robot, mode = answer._origin
+        for piece in itertools.chain.from_iterable(robot.workspace("constant", phi=0.0, mode=mode).outlines()):
+            ax.plot(*piece.T, color="black", lw=1.0)
+    said = []
+    if answer.at is not None and answer.zeta is not None:
         ax.plot(*answer.at, "o", mfc="white", mec="black")
-    ax.set_title(answer._summary())
+        said.append(f"{np.degrees(answer.zeta):.6g}° at ({', '.join(f'{x:.6g}' for x in answer.at)})")
+    if answer.supremum is not None:
+        said.append(f"at most {np.degrees(answer.supremum.zeta):.6g}°")
+    ax.set_title(", ".join(said) or "empty workspace")
     return ax
 
 
 def tilt_section(answer: TiltMap, section: int, ax: Axes | None) -> Axes:
-    """One section of a tilt map."""
+    """One section of a tilt map, in the scale of all of them."""
     ax = _axes(ax)
     low, high = answer.low, answer.high
+    degrees = np.degrees(answer.grid)
+    known = degrees[np.isfinite(degrees)]
     image = ax.imshow(
-        np.degrees(answer.grid[section]), origin="lower", extent=(low[0], high[0], low[1], high[1]), cmap="viridis"
+        degrees[section],
+        origin="lower",
+        extent=(low[0], high[0], low[1], high[1]),
+        cmap="viridis",
+        vmin=0.0,
+        vmax=float(known.max()) if known.size else 1.0,
     )
     ax.figure.colorbar(image, ax=ax, label="largest tilt (°)")
     ax.set_title(f"z = {answer.sections[section].z:.6g}")

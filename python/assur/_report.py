@@ -172,6 +172,11 @@ def numbers(values: typing.Iterable[float]) -> str:
     return ", ".join(number(value) for value in values)
 
 
+def counted(count: int, what: str) -> str:
+    """So many of something: ``1 row``, ``2 rows``."""
+    return f"{count} {what}" if count == 1 else f"{count} {what}s"
+
+
 def text_table(table: list[list[str]]) -> str:
     """A table as aligned columns."""
     if not table:
@@ -182,7 +187,8 @@ def text_table(table: list[list[str]]) -> str:
 
 def block(title: str, table: list[list[str]], summary: str = "", drawing: str | None = None) -> str:
     """A result in a notebook: title, drawing, table, summary."""
-    picture = "" if drawing is None else f"<img alt='{html.escape(title)}' src='{_data_uri(drawing)}'>"
+    style = "max-width: 100%; height: auto"
+    picture = "" if drawing is None else f"<img style='{style}' alt='{html.escape(title)}' src='{_data_uri(drawing)}'>"
     text = f"<p>{html.escape(summary)}</p>" if summary else ""
     return f"<div><b>{html.escape(title)}</b>{picture}{_html_table(table)}{text}</div>"
 

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _assur
-from ._arrays import MOST_POINTS, FloatArray, number as one_number, optional_vector, vector, whole
-from ._report import Report, number, numbers, result
+from ._arrays import MOST_POINTS, FloatArray, number as one_number, one_or_rows, optional_vector, spread, vector, whole
+from ._report import Report, counted, number, numbers, result
 from ._spatial import MOST_CELLS, Spatial
+from ._spatial_batch import HanaVelocityBatch
 from .errors import InputError
 from .modes import Account
 from .motion import BothWays, UnreachableLeg
@@ -257,16 +258,17 @@ class ArcRegion(Report):
         return f"{self.kind} workspace of HANA"
 
     def _summary(self) -> str:
-        return f"area {number(self.area)}, perimeter {number(self.perimeter)}, {self.components} components"
+        return f"area {number(self.area)}, perimeter {number(self.perimeter)}, {counted(self.components, 'component')}"
 
 
 @dataclass(frozen=True, eq=False)
 class Supremum:
-    """The largest capability (radians), where, and whether it is had or only approached."""
+    """The largest capability (radians), where, whether it is had or only approached, and a bound shown for every place."""
 
     zeta: float
     at: FloatArray
     attained: bool
+    at_most: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -316,7 +318,7 @@ class HanaTilts(Report):
     against_strokes: tuple[StrokeTilt, ...] | None
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """Draws the map; returns the axes, shows nothing."""
+        """Draws the map, and the exact boundary over it; returns the axes, shows nothing."""
         from . import _plot
 
         return _plot.tilts(self, ax)
@@ -352,6 +354,16 @@ class Hana(Spatial):
         """Every assembly mode for slider heights ``z1, z2, z3``."""
         return result(HanaAssemblies, self._model.forward(vector("inputs", inputs, 3)), self)
 
+    @overload
+    def velocity(
+        self,
+        pose: list[float] | tuple[float, float, float],
+        mode: str = "+++",
+        *,
+        rates: ArrayLike | None = None,
+        accelerations: ArrayLike | None = None,
+    ) -> HanaVelocity: ...
+    @overload
     def velocity(
         self,
         pose: ArrayLike,
@@ -359,10 +371,41 @@ class Hana(Spatial):
         *,
         rates: ArrayLike | None = None,
         accelerations: ArrayLike | None = None,
-    ) -> HanaVelocity:
-        """Matrices, singularity, rates and accelerations in a pose, the last two answered both ways."""
+    ) -> Any: ...
+    def velocity(
+        self,
+        pose: ArrayLike,
+        mode: str = "+++",
+        *,
+        rates: ArrayLike | None = None,
+        accelerations: ArrayLike | None = None,
+    ) -> Any:
+        """Matrices, singularity, rates and accelerations in a pose or in many, the last two answered both ways.
+
+        Parameters
+        ----------
+        pose : array_like, shape (3,) or (n, 3)
+            ``y, z, phi``, radians.
+        mode : str
+            The working mode.
+        rates, accelerations : array_like, shape (3,) or (n, 3), optional
+            Of the platform or of the sliders; one row is for all poses.
+
+        Returns
+        -------
+        HanaVelocity
+            For one pose.
+        HanaVelocityBatch
+            For ``(n, 3)``: arrays, on all processors. A row that cannot be asked is masked and has its reason in ``errors``.
+        """
+        given = one_or_rows("pose", pose, 3)
+        if not isinstance(given, list):
+            asked = {"rates": rates, "accelerations": accelerations}
+            moving = {what: np.empty((0, 3)) if one is None else spread(what, one, len(given), 3) for what, one in asked.items()}
+            batch = self._model.velocity_batch(given, mode, moving["rates"], moving["accelerations"])
+            return HanaVelocityBatch._of(given, batch, {what for what, one in asked.items() if one is not None})
         answer = self._model.velocity(
-            vector("pose", pose, 3),
+            given,
             mode,
             optional_vector("rates", rates, 3),
             optional_vector("accelerations", accelerations, 3),
@@ -423,4 +466,4 @@ class Hana(Spatial):
         cells = CELLS if cells is None and place is None else cells
         halves = [one_number("strokes", value) for value in np.atleast_1d(np.asarray(strokes, dtype=object)).ravel()]
         size = None if cells is None else whole("cells", cells, 1, MOST_CELLS)
-        return result(HanaTilts, self._model.capability(place, mode, halves, size), self)
+        return result(HanaTilts, self._model.capability(place, mode, halves, size), (self, mode))

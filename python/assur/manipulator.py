@@ -22,7 +22,7 @@ from .modes import AssemblyModes, ModesBatch
 from .motion import Velocity, WorkingModes
 from .paths import FollowedPath
 from .poses import VelocityBatch, WorkingModesBatch
-from .workspaces import Region
+from .workspaces import Region, StrokeVoid
 
 __all__ = ["Manipulator"]
 
@@ -297,10 +297,10 @@ class Manipulator:
             The working mode, as ``"+-+"``; without it the only one, or the only one within the limits.
         rates : array_like, shape (3,) or (n, 3), optional
             Of the platform or of the actuators: answered both ways. Per unit of time, angles in radians.
-        accelerations : array_like, shape (3,), optional
-            The same; of one pose only.
-        wrench : array_like, shape (3,), optional
-            Force and moment on the platform, about its origin; of one pose only.
+        accelerations : array_like, shape (3,) or (n, 3), optional
+            The same, at these rates; at rest without them.
+        wrench : array_like, shape (3,) or (n, 3), optional
+            Force and moment on the platform, about its origin. One row is for all poses.
         length : float, optional
             What weighs turning against moving; the platform's size without it.
 
@@ -309,7 +309,7 @@ class Manipulator:
         Velocity
             For one pose.
         VelocityBatch
-            For ``(n, 3)``: matrices, determinants, singularities and rates as arrays, on all processors. A row that cannot be asked is
+            For ``(n, 3)``: matrices, determinants, singularities, rates, accelerations and forces as arrays, on all processors. A row that cannot be asked is
             masked and has its reason in ``errors``.
 
         Raises
@@ -330,12 +330,23 @@ class Manipulator:
                 size,
             )
             return result(Velocity, answer, self)
-        for what, value in (("accelerations", accelerations), ("wrench", wrench)):
-            if value is not None:
-                raise InputError(f"{what}: of one pose only, shape (3,)", field=what)
-        moving = np.empty((0, 3)) if rates is None else spread("rates", rates, len(given), 3)
-        batch = self._model.velocity_batch(given, mode, moving, size)
-        return VelocityBatch._of(given, batch, rates is not None)
+        asked = {"rates": rates, "accelerations": accelerations, "wrench": wrench}
+        moving = {what: np.empty((0, 3)) if one is None else spread(what, one, len(given), 3) for what, one in asked.items()}
+        batch = self._model.velocity_batch(given, mode, moving["rates"], moving["accelerations"], moving["wrench"], size)
+        return VelocityBatch._of(given, batch, {what for what, one in asked.items() if one is not None})
+
+    def stroke_voids(self) -> tuple[StrokeVoid | None, ...]:
+        """What the stroke of each leg leaves out around its middle; none for a leg that is no PRR leg whose slider has a range.
+
+        Examples
+        --------
+        >>> import assur
+        >>> leg = {"joints": "_P_RR", "base": {"at": [0, 0]}, "links": [0, 2], "platform": {"at": [1, 0]}, "limits": [1, 3]}
+        >>> robot = assur.Manipulator.from_dict({"schema": "assur/manipulator/1", "leg": [leg, leg, leg]})
+        >>> robot.stroke_voids()[0].kind
+        'lens'
+        """
+        return tuple(None if found is None else StrokeVoid._of(*found) for found in self._model.stroke_voids())
 
     def _actuated(self) -> NDArray[np.bool_]:
         """Whether each joint of each leg is actuated, shape ``(legs, 3)``."""
@@ -393,6 +404,7 @@ class Manipulator:
         slices: int | None = None,
         gradient: str | Sequence[str] = (),
         optimise: Mapping[str, tuple[float, float]] | None = None,
+        overlays: Sequence[str | tuple[Any, ...]] = (),
     ) -> Region:
         """Where the reference point can reach, exactly; of legs RPR, RRR and PRR in any mixture.
 
@@ -413,6 +425,8 @@ class Manipulator:
             Numbers of the design, as in :meth:`with_numbers`, by which the area is derived: ``Region.gradient``.
         optimise : mapping from key to (low, high), optional
             Numbers of the design with bounds within which the largest area is sought: ``Region.optimum``. Some hundred workspaces.
+        overlays : sequence of str or tuple, optional
+            Other kinds to be drawn over it, ``Region.overlays``: ``"dextrous"``, ``("constant", phi)``, ``("inclusive", lower, upper)``.
 
         Raises
         ------
@@ -430,6 +444,7 @@ class Manipulator:
             "slices": None if slices is None else whole("slices", slices, 1, MOST_SLICES),
             "gradient": [gradient] if isinstance(gradient, str) else list(gradient),
             "optimise": [(key, _bounds(key, ends)) for key, ends in (optimise or {}).items()],
+            "overlays": [_overlay(other) for other in overlays],
         }
         answer, shape = self._model.workspace(question)
         found = result(Region, answer, (self, question))
@@ -485,6 +500,17 @@ def _bounds(key: str, ends: ArrayLike) -> list[float]:
     if not (np.isfinite(low) and np.isfinite(high) and low < high):
         raise InputError(f"optimise: {key}: bounds {low}, {high} must be finite and ascend", field="optimise", value=(low, high))
     return [low, high]
+
+
+def _overlay(other: str | tuple[Any, ...]) -> tuple[str, list[float]]:
+    kind, *angles = (other,) if isinstance(other, str) else other
+    needed = _TAKES.get(kind) if isinstance(kind, str) else None
+    if needed is None:
+        raise InputError(f"overlays: {kind!r} must be one of {', '.join(_TAKES)}", field="overlays", value=kind)
+    if len(angles) != len(needed):
+        wanted = ", ".join(needed) or "no angles"
+        raise InputError(f"overlays: {kind} has {len(angles)} angles, must have {wanted}", field="overlays", value=kind)
+    return kind, _angles_of(kind, **{"phi": None, "lower": None, "upper": None, **dict(zip(needed, angles, strict=True))})
 
 
 def _angles_of(kind: str, phi: float | None, lower: float | None, upper: float | None) -> list[float]:

@@ -116,11 +116,13 @@ class Reading:
 
 
 class _Answered:
-    """Answers that a singularity may leave out: a report has the reason in their place."""
+    """Answers that a singularity, or a leg with one motor, may leave out: a report has the reason in their place."""
 
     @staticmethod
     def _prepared(document: Mapping[str, Any]) -> dict[str, Any]:
-        missing = [value["singular"] for value in document.values() if isinstance(value, Mapping)]
+        missing = [reason for value in document.values() if isinstance(value, Mapping) for reason in value.values()]
+        if "pose_refused" in document:
+            missing.append(document["pose_refused"])
         found = {key: None if isinstance(value, Mapping) else value for key, value in document.items()}
         return {**found, "reasons": missing}
 

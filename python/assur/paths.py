@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._arrays import FloatArray, read_only
-from ._report import Report, number, numbers
+from ._report import Report, counted, number, numbers
 from .modes import Violation
 
 if TYPE_CHECKING:
@@ -126,7 +126,7 @@ class FollowedPath(Report):
         return _plot.animate(self, ax, frames=frames, interval=interval)
 
     def _title(self) -> str:
-        return f"Path through {len(self.rows)} rows"
+        return f"Path through {counted(len(self.rows), 'row')}"
 
     def _table(self) -> list[list[str]]:
         rows = [[event.kind, number(event.at), numbers(event.inputs), numbers(event.pose)] for event in self.events]

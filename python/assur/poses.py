@@ -153,6 +153,10 @@ class VelocityBatch(Batch):
         The place of each row's mode among ``signs``.
     inputs_if_pose, pose_if_inputs : masked array, shape (n, 3), or None
         Where rates were given: the actuators' if those given are the platform's, and the other way round; masked where a singularity leaves none.
+    input_accelerations_if_pose, pose_accelerations_if_inputs : masked array, shape (n, 3), or None
+        Where accelerations were given: the same.
+    actuator_forces : masked array, shape (n, 3), or None
+        Where a wrench was given: what holds it; masked where a singularity leaves none.
     errors : mapping from row to InputError
         Rows that could not be asked.
     """
@@ -166,10 +170,16 @@ class VelocityBatch(Batch):
     _readings: FloatArray = field(repr=False)
     _rates: FloatArray | None = field(repr=False)
     _answered: NDArray[np.bool_] = field(repr=False)
+    _accelerations: FloatArray | None = field(repr=False)
+    _accelerated: NDArray[np.bool_] = field(repr=False)
+    _forces: FloatArray | None = field(repr=False)
+    _held: NDArray[np.bool_] = field(repr=False)
 
     @classmethod
-    def _of(cls, poses: FloatArray, batch: _assur.MotionBatch, moving: bool) -> VelocityBatch:
+    def _of(cls, poses: FloatArray, batch: _assur.MotionBatch, asked: set[str]) -> VelocityBatch:
         for array in (batch.modes, batch.matrices, batch.readings, batch.singularities, batch.rates, batch.answered):
+            read_only(array)
+        for array in (batch.accelerations, batch.accelerated, batch.forces, batch.held):
             read_only(array)
         return cls(
             poses,
@@ -179,8 +189,12 @@ class VelocityBatch(Batch):
             RowErrors(batch.errors),
             batch.matrices,
             batch.readings,
-            batch.rates if moving else None,
+            batch.rates if "rates" in asked else None,
             batch.answered,
+            batch.accelerations if "accelerations" in asked else None,
+            batch.accelerated,
+            batch.forces if "wrench" in asked else None,
+            batch.held,
         )
 
     @cached_property
@@ -234,6 +248,21 @@ class VelocityBatch(Batch):
     def pose_if_inputs(self) -> MaskedFloats | None:
         """Rates of the platform if those given are the inputs', shape ``(n, 3)``; none where no rates were given."""
         return None if self._rates is None else _masked(self._rates[:, 1], ~self._answered[:, 1])
+
+    @property
+    def input_accelerations_if_pose(self) -> MaskedFloats | None:
+        """Accelerations of the inputs if those given are the platform's, shape ``(n, 3)``; none where none were given."""
+        return None if self._accelerations is None else _masked(self._accelerations[:, 0], ~self._accelerated[:, 0])
+
+    @property
+    def pose_accelerations_if_inputs(self) -> MaskedFloats | None:
+        """Accelerations of the platform if those given are the inputs', shape ``(n, 3)``; none where none were given."""
+        return None if self._accelerations is None else _masked(self._accelerations[:, 1], ~self._accelerated[:, 1])
+
+    @property
+    def actuator_forces(self) -> MaskedFloats | None:
+        """Forces of the actuators that hold the wrench, shape ``(n, 3)``; none where no wrench was given."""
+        return None if self._forces is None else _masked(self._forces, ~self._held)
 
     def __len__(self) -> int:
         return len(self.poses)

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._report import block
+from ._report import block, number
 from .errors import AssurError, InputError
 from .manipulator import Manipulator
 
@@ -237,7 +237,7 @@ class Sweep:
 
     def _repr_html_(self) -> str:
         shown = min(len(self), MOST_SHOWN)
-        rows = [["" if (x := values[row]) is None else str(x) for values in self.columns.values()] for row in range(shown)]
+        rows = [["" if (x := values[row]) is None else number(x) if isinstance(x, float) else str(x) for values in self.columns.values()] for row in range(shown)]
         more = f"{len(self) - shown} more rows" if len(self) > shown else ""
         return block(self._title(), [list(self.columns), *rows], more)
 

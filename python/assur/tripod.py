@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _assur
-from ._arrays import FloatArray, number as one_number, optional_vector, read_only, vector, whole
+from ._arrays import FloatArray, number as one_number, read_only, rows, spread, vector, whole
 from ._report import Report, number, numbers, result
 from ._spatial import MOST_CELLS, MOST_SECTIONS, Spatial
+from ._spatial_batch import TripodVelocityBatch
 from .errors import InputError
 from .modes import Account
 from .motion import BothWays
@@ -25,9 +26,13 @@ __all__ = [
     "DeterminantCurve",
     "DeterminantCurves",
     "DeterminantPoint",
+    "Pointed",
+    "PointedWay",
     "Tilt",
     "TiltMap",
     "TiltSection",
+    "Torsion",
+    "Torsions",
     "Tripod",
     "TripodAssemblies",
     "TripodAssembly",
@@ -83,6 +88,91 @@ class TripodWay(Report):
 
     def _summary(self) -> str:
         return f"{len(self.violations)} limits violated"
+
+
+@dataclass(frozen=True, eq=False)
+class Torsion:
+    """A torsion, radians, about a direction, and the orientation with it, shape ``(3, 3)``; torsion 0 is the shortest turn there."""
+
+    torsion: float
+    rotation: FloatArray
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Torsions(Report):
+    """The orientations that point a tool's axis in a direction.
+
+    Attributes
+    ----------
+    status : str
+        ``"complete"``; ``"every_torsion"`` where every one serves: the one listed is torsion 0.
+    direction : ndarray, shape (3,)
+    solutions : tuple of Torsion
+        Least torsion first; none means that there are none.
+    """
+
+    status: str
+    direction: FloatArray
+    solutions: tuple[Torsion, ...]
+
+    def __len__(self) -> int:
+        return len(self.solutions)
+
+    def __iter__(self) -> Iterator[Torsion]:
+        return iter(self.solutions)
+
+    def _title(self) -> str:
+        return f"Tool pointed along {numbers(self.direction)}"
+
+    def _table(self) -> list[list[str]]:
+        rows = [[number(way.torsion), *map(number, way.rotation.ravel())] for way in self.solutions]
+        return [["torsion (rad)", *(f"r{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3))], *rows] if rows else []
+
+    def _summary(self) -> str:
+        return _torsions(self.status, len(self))
+
+
+@dataclass(frozen=True, eq=False)
+class PointedWay:
+    """A pose that points the tool as asked: its torsion (radians), slider positions, shape ``(6,)``, and the limits that they violate."""
+
+    torsion: float
+    pose: TripodPose
+    inputs: FloatArray
+    plane_angles: FloatArray
+    violations: tuple[TripodViolation, ...]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Pointed(Report):
+    """The poses at a place that point a tool's axis in a direction; attributes as of :class:`Torsions`."""
+
+    status: str
+    position: FloatArray
+    direction: FloatArray
+    solutions: tuple[PointedWay, ...]
+
+    def __len__(self) -> int:
+        return len(self.solutions)
+
+    def __iter__(self) -> Iterator[PointedWay]:
+        return iter(self.solutions)
+
+    def _title(self) -> str:
+        return f"Tool pointed along {numbers(self.direction)}, platform at {numbers(self.position)}"
+
+    def _table(self) -> list[list[str]]:
+        rows = [
+            [number(way.torsion), *map(number, way.inputs), str(len(way.violations))] for way in self.solutions
+        ]
+        return [["torsion (rad)", *(f"rho {k}" for k in range(1, 7)), "limits violated"], *rows] if rows else []
+
+    def _summary(self) -> str:
+        return _torsions(self.status, len(self))
+
+
+def _torsions(status: str, count: int) -> str:
+    return "every torsion serves; torsion 0 is shown" if status == "every_torsion" else f"{count} orientations"
 
 
 @dataclass(frozen=True, eq=False)
@@ -279,7 +369,7 @@ class DeterminantCurves(Report):
 
 
 class Tripod(Spatial):
-    """A three-legged robot of six degrees of freedom; ``legs`` on two sliders each.
+    """A three-legged robot on two sliders a leg: six degrees of freedom, less one for each leg with one motor.
 
     A pose is six numbers, place and rotation vector (axis times angle, radians), or twelve, place and rotation matrix row by row.
     """
@@ -292,17 +382,109 @@ class Tripod(Spatial):
         return result(TripodWay, self._model.inverse(_tripod_pose(pose)), self)
 
     def forward(self, inputs: ArrayLike, *, certify: bool = False) -> TripodAssemblies:
-        """Every assembly mode for six slider positions, leg by leg; with ``certify`` counted exactly, over the integers."""
-        return result(TripodAssemblies, self._model.forward(vector("inputs", inputs, 6), bool(certify)), self)
+        """Every assembly mode for given slider positions.
 
+        Parameters
+        ----------
+        inputs : array_like, shape (6,) or (m,)
+            Leg by leg; one for each motor where a leg has one, see :attr:`motors`.
+        certify : bool
+            Whether solutions are counted exactly, over the integers.
+
+        Raises
+        ------
+        InputError
+            A wrong shape, numbers that are not finite; six in which the sliders of a leg with one motor differ.
+        """
+        return result(TripodAssemblies, self._model.forward(self._of_motors("inputs", inputs), bool(certify)), self)
+
+    @property
+    def motors(self) -> tuple[int, ...]:
+        """The sliders, from 1 to 6, with a motor of their own: all but the second of a leg with one motor."""
+        return tuple(self._model.motors)
+
+    @property
+    def degrees_of_freedom(self) -> int:
+        """How many motors there are."""
+        return len(self.motors)
+
+    def _of_motors(self, what: str, values: ArrayLike) -> list[float]:
+        return vector(what, values, *sorted({self.degrees_of_freedom, 6}))
+
+    def pointing(self, direction: ArrayLike) -> Torsions:
+        """The orientations of a robot with five degrees of freedom that point the tool's axis in a direction of the base frame.
+
+        Parameters
+        ----------
+        direction : array_like, shape (3,)
+            Of any length.
+
+        Raises
+        ------
+        InputError
+            A robot with other degrees of freedom; a direction of no length.
+        """
+        return result(Torsions, self._model.pointing(vector("direction", direction, 3)), self)
+
+    def pointed(self, position: ArrayLike, direction: ArrayLike) -> Pointed:
+        """The poses of a robot with five degrees of freedom that point the tool's axis in a direction.
+
+        Parameters
+        ----------
+        position : array_like, shape (3,)
+            Of the platform's origin.
+        direction : array_like, shape (3,)
+            As :meth:`pointing`.
+
+        Raises
+        ------
+        InputError
+            As :meth:`pointing` and :meth:`inverse`.
+        """
+        return result(Pointed, self._model.pointed(vector("position", position, 3), vector("direction", direction, 3)), self)
+
+    @overload
+    def velocity(
+        self, pose: list[float], *, rates: ArrayLike | None = None, accelerations: ArrayLike | None = None
+    ) -> TripodVelocity: ...
+    @overload
     def velocity(
         self, pose: ArrayLike, *, rates: ArrayLike | None = None, accelerations: ArrayLike | None = None
-    ) -> TripodVelocity:
-        """Jacobian, singularity, rates and accelerations in a pose, the last two answered both ways."""
-        answer = self._model.velocity(
-            _tripod_pose(pose), optional_vector("rates", rates, 6), optional_vector("accelerations", accelerations, 6)
-        )
-        return result(TripodVelocity, answer, self)
+    ) -> Any: ...
+    def velocity(
+        self, pose: ArrayLike, *, rates: ArrayLike | None = None, accelerations: ArrayLike | None = None
+    ) -> Any:
+        """Jacobian, singularity, rates and accelerations in a pose or in many.
+
+        Parameters
+        ----------
+        pose : array_like, shape (6,), (12,), (n, 6) or (n, 12)
+        rates, accelerations : array_like, shape (6,), (m,), (n, 6) or (n, m), optional
+            Six of the platform or of the sliders, answered both ways; one for each motor, of the sliders. Angles in radians.
+            One row is for all poses.
+
+        Returns
+        -------
+        TripodVelocity
+            For one pose.
+        TripodVelocityBatch
+            For many: arrays, on all processors. A row that cannot be asked is masked and has its reason in ``errors``.
+        """
+        if np.ndim(pose) == 2:
+            given = rows("pose", pose, 12 if np.shape(pose)[1] == 12 else 6)
+            asked = {"rates": rates, "accelerations": accelerations}
+            widths = {what: 6 if one is None or np.shape(one)[-1:] == (6,) else self.degrees_of_freedom for what, one in asked.items()}
+            moving_rows = {
+                what: np.empty((0, widths[what])) if one is None else spread(what, one, len(given), widths[what])
+                for what, one in asked.items()
+            }
+            batch = self._model.velocity_batch(given, moving_rows["rates"], moving_rows["accelerations"])
+            return TripodVelocityBatch._of(given, batch, {what for what, one in asked.items() if one is not None})
+        moving = [
+            None if values is None else self._of_motors(what, values)
+            for what, values in (("rates", rates), ("accelerations", accelerations))
+        ]
+        return result(TripodVelocity, self._model.velocity(_tripod_pose(pose), *moving), self)
 
     def tilt(self, at: ArrayLike, *, tolerance: float = TILT_TOLERANCE) -> Tilt:
         """The largest tilt of the tool that every azimuth allows at a place; the proved one is within ``tolerance`` below."""
@@ -317,7 +499,6 @@ class Tripod(Spatial):
             whole("cells", cells, 1, MOST_CELLS),
         )
         return result(TiltMap, answer, self)
-
 
     @staticmethod
     def determinant_curves(

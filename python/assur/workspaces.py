@@ -11,14 +11,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _assur
-from ._arrays import MOST_POINTS, FloatArray, rows, whole
-from ._report import Report, number
+from ._arrays import MOST_POINTS, FloatArray, read_only, rows, whole
+from ._report import Report, counted, number
 from .errors import InputError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["BoundaryArc", "BoundaryLoop", "Isolated", "Memberships", "Optimum", "Region", "Slice", "Stack"]
+__all__ = ["BoundaryArc", "BoundaryLoop", "Isolated", "Memberships", "Optimum", "Overlay", "Region", "Slice", "Stack", "StrokeVoid"]
 
 #: Points along each arc where an outline is made of straight pieces.
 POINTS = 64
@@ -98,6 +98,49 @@ class Slice(_Measured):
     """The constant-orientation workspace of one orientation, radians, measured as :class:`Region` is."""
 
     phi: float
+
+
+@dataclass(frozen=True, eq=False)
+class Overlay(_Measured):
+    """A workspace of another kind, drawn over a :class:`Region` and measured as one."""
+
+    kind: str
+    phi: float | None
+    lower: float | None
+    upper: float | None
+    mode: str
+    status: str
+    separating: tuple[BoundaryArc, ...]
+
+    _renamed: ClassVar[Mapping[str, str]] = {"from": "lower", "to": "upper"}
+
+    def _label(self) -> str:
+        return _asked(self.kind, self.phi, self.lower, self.upper)
+
+
+@dataclass(frozen=True, eq=False)
+class StrokeVoid:
+    """What the stroke of a PRR leg leaves out around its middle, in places of the leg's platform pivot in the base frame.
+
+    Attributes
+    ----------
+    kind : {"none", "touching", "lens"}
+        Nothing; a point that is reached, where the stroke is two links; an open lens, where it is shorter.
+    points : ndarray, shape (n, 2)
+        The point, or the lens's tips.
+    area : float
+        The lens's area.
+    """
+
+    kind: str
+    points: FloatArray
+    area: float
+
+    @classmethod
+    def _of(cls, kind: str, flat: list[float], area: float) -> StrokeVoid:
+        points = _pairs(flat)
+        read_only(points)
+        return cls(kind, points, area)
 
 
 @dataclass(frozen=True, eq=False)
@@ -200,6 +243,8 @@ class Region(_Measured, Report):
         The area's derivatives by numbers of the design, where they were asked for: area over length, or over radians.
     optimum : Optimum or None
         The design with the largest area found, where it was asked for.
+    overlays : tuple of Overlay
+        Workspaces of other kinds, where they were asked for.
     """
 
     kind: str
@@ -213,6 +258,7 @@ class Region(_Measured, Report):
     stack: Stack | None
     gradient: dict[str, float] | None
     optimum: Optimum | None
+    overlays: tuple[Overlay, ...]
 
     _renamed: ClassVar[Mapping[str, str]] = {"from": "lower", "to": "upper"}
 
@@ -260,6 +306,10 @@ class Region(_Measured, Report):
         """The loops of each slice of the stack as closed polygons, as :meth:`outlines`; empty without a stack."""
         return [[_pairs(flat) for flat in loops] for loops in self._shape.slices(_fine(points))]
 
+    def overlay_outlines(self, points: int = POINTS) -> list[list[NDArray[np.float64]]]:
+        """The loops of each overlay as closed polygons, as :meth:`outlines`."""
+        return [[_pairs(flat) for flat in loops] for loops in self._shape.overlays(_fine(points))]
+
     def to_dxf(self) -> str:
         """The boundary as a DXF drawing (release 12), lines, arcs and circles exact; what ``--dxf`` writes."""
         return self._shape.dxf()
@@ -288,6 +338,7 @@ class Region(_Measured, Report):
         ----------
         ax : matplotlib Axes, optional
             Where to draw; without it new axes are made.
+            Overlays are drawn with it.
         label : str, optional
             With it the region is one of several over one another, in one colour under this name; without it each arc has the colour of its limits.
         """
@@ -302,10 +353,7 @@ class Region(_Measured, Report):
         return _plot.slices(self, ax)
 
     def _title(self) -> str:
-        asked = "" if self.phi is None else f" at phi = {number(self.phi)}"
-        if self.lower is not None and self.upper is not None:
-            asked = f" over phi from {number(self.lower)} to {number(self.upper)}"
-        return f"{self.kind} workspace{asked}, mode {self.mode}"
+        return f"{_asked(f'{self.kind} workspace', self.phi, self.lower, self.upper)}, mode {self.mode}"
 
     def _table(self) -> list[list[str]]:
         table = [
@@ -315,14 +363,21 @@ class Region(_Measured, Report):
         return [["loop", "area", "arcs", "limits"], *table] if table else []
 
     def _summary(self) -> str:
-        pieces = f"{self.components} components, {self.holes} holes"
+        pieces = f"{counted(self.components, 'component')}, {counted(self.holes, 'hole')}"
         parts = [f"area {number(self.area)}, perimeter {number(self.perimeter)}, {pieces}" if self.components else "empty"]
         if self.stack is not None:
             parts.append(f"volume {number(self.stack.volume)} over {len(self.stack.slices)} slices")
         parts += [f"d area / d {key} {number(slope)}" for key, slope in (self.gradient or {}).items()]
         if self.optimum is not None:
             parts.append(f"largest area found {number(self.optimum.area)}")
+        parts += [f"{other._label()}: area {number(other.area)}" for other in self.overlays]
         return "; ".join(parts)
+
+
+def _asked(what: str, phi: float | None, lower: float | None, upper: float | None) -> str:
+    if lower is not None and upper is not None:
+        return f"{what} over phi from {number(lower)} to {number(upper)}"
+    return what if phi is None else f"{what} at phi = {number(phi)}"
 
 
 def _fine(points: int) -> int:

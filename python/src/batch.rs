@@ -1,6 +1,6 @@
 //! Many rows at once, array to array.
 
-use assur::{KinematicsError, LockError, Manipulator, ModesPlaces, Status};
+use assur::{KinematicsError, LockError, Manipulator, ModesPlaces, SpatialError, Status, TripodError};
 use numpy::{PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
@@ -29,6 +29,10 @@ pub enum RowError {
     Inputs(LockError),
     /// A pose.
     Pose(KinematicsError),
+    /// A pose of HANA.
+    Spatial(SpatialError),
+    /// A pose of a three-legged robot.
+    Tripod(TripodError),
 }
 
 /// The rows that could not be asked, ascending, each with its reason.
@@ -54,6 +58,8 @@ impl RowErrors {
         let reason = |place: usize| match &self.errors[place].1 {
             RowError::Inputs(error) => Refused::input(error.clone()),
             RowError::Pose(error) => Refused::input(error.clone()),
+            RowError::Spatial(error) => Refused::input(error.clone()),
+            RowError::Tripod(error) => Refused::input(error.clone()),
         };
         found.map(|place| reason(place).exception(py)).transpose()
     }

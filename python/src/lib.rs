@@ -8,6 +8,7 @@ mod poses;
 mod problems;
 mod refused;
 mod spatial;
+mod spatial_batch;
 mod workspace;
 
 use pyo3::prelude::*;
@@ -27,6 +28,8 @@ mod _assur {
     use crate::problems::{coupler, coupler_polygons, group, triad};
     #[pymodule_export]
     use crate::spatial::{HanaModel, MultipteronModel, TripodModel, determinant};
+    #[pymodule_export]
+    use crate::spatial_batch::SpatialBatch;
     #[pymodule_export]
     use crate::workspace::Shape;
 

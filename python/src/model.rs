@@ -8,6 +8,7 @@ use assur::exchange::{
     MotionAnswer, PathReport, VerifyReport,
 };
 use assur::nalgebra::Vector3;
+use assur::workspace::StrokeVoid;
 use assur::{DesignError, DesignKey, Manipulator, MapQuantity, PathSettings, Pose};
 use numpy::{PyArray1, PyReadonlyArray2, ToPyArray};
 use pyo3::exceptions::PyValueError;
@@ -15,7 +16,7 @@ use pyo3::prelude::*;
 
 use crate::answer::Answer;
 use crate::batch::{self, Batch};
-use crate::poses::{self, MotionBatch, WaysBatch};
+use crate::poses::{self, MotionBatch, Moving, WaysBatch};
 use crate::refused::Refused;
 use crate::workspace::{self, Asked, Shape};
 
@@ -122,17 +123,20 @@ impl Model {
         poses::inverse(py, self.robot(), poses)
     }
 
-    /// Matrices, singularities and rates of many rows.
-    #[pyo3(signature = (poses, mode, rates, length))]
+    /// Matrices, singularities, rates, accelerations and forces of many rows; arrays without rows for what is not asked.
+    #[pyo3(signature = (poses, mode, rates, accelerations, wrenches, length))]
+    #[expect(clippy::too_many_arguments, reason = "what the command line asks for")]
     fn velocity_batch(
         &self,
         py: Python<'_>,
         poses: PyReadonlyArray2<'_, f64>,
         mode: Option<&str>,
         rates: PyReadonlyArray2<'_, f64>,
+        accelerations: PyReadonlyArray2<'_, f64>,
+        wrenches: PyReadonlyArray2<'_, f64>,
         length: Option<f64>,
     ) -> PyResult<MotionBatch> {
-        poses::velocity(py, self.robot(), poses, mode, rates, length)
+        poses::velocity(py, self.robot(), poses, mode, &Moving { rates, accelerations, wrenches }, length)
     }
 
     fn inverse(&self, py: Python<'_>, at: [f64; 3]) -> PyResult<Answer> {
@@ -203,6 +207,16 @@ impl Model {
             let (json, file) = (PathReport::from(&path).to_json(), self.file.clone());
             Ok::<_, Refused>(Answer::drawn(json, move || assur::plot::draw_path(&file.manipulator, &path)))
         })?)
+    }
+
+    /// What the stroke of each leg leaves out: kind, point or tips flat, area; none for a leg that is no PRR leg with a range.
+    fn stroke_voids(&self) -> Vec<Option<(&'static str, Vec<f64>, f64)>> {
+        let void = |void: StrokeVoid| match void {
+            StrokeVoid::None => ("none", Vec::new(), 0.0),
+            StrokeVoid::Touching { at } => ("touching", at.to_vec(), 0.0),
+            StrokeVoid::Lens { tips, area } => ("lens", tips.as_flattened().to_vec(), area),
+        };
+        self.robot().stroke_voids().into_iter().map(|one| one.map(void)).collect()
     }
 
     /// The workspace of a kind.

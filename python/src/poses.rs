@@ -88,16 +88,48 @@ pub struct MotionBatch {
     rates: Py<PyArrayDyn<f64>>,
     /// `(n, 2)`: whether there are such rates.
     answered: Py<PyArrayDyn<bool>>,
+    /// `(n, 2, 3)`: accelerations, as the rates; empty where none were given.
+    accelerations: Py<PyArrayDyn<f64>>,
+    /// `(n, 2)`: whether there are such accelerations.
+    accelerated: Py<PyArrayDyn<bool>>,
+    /// `(n, 3)`: forces of the actuators that hold the wrench; empty where none was given.
+    forces: Py<PyArrayDyn<f64>>,
+    /// `(n,)`: whether there are such forces.
+    held: Py<PyArrayDyn<bool>>,
     errors: Py<RowErrors>,
 }
 
-/// Matrices, singularities and rates of the rows of a C-contiguous `(n, 3)` array; `rates` has as many rows, or none.
+/// What is asked of each pose: arrays `(n, 3)`, or without rows where it is not asked.
+pub struct Moving<'py> {
+    /// Rates of the platform, or of the inputs.
+    pub rates: PyReadonlyArray2<'py, f64>,
+    /// Accelerations that go with them.
+    pub accelerations: PyReadonlyArray2<'py, f64>,
+    /// Wrenches on the platform.
+    pub wrenches: PyReadonlyArray2<'py, f64>,
+}
+
+/// A row of an array that may be without rows.
+fn row_of(values: &[f64], row: usize) -> Option<Vector3<f64>> {
+    values.get(3 * row..3 * row + 3).map(Vector3::from_column_slice)
+}
+
+/// Puts both answers of a row where there are such.
+fn put_both(row: usize, both: [Result<Vector3<f64>, SingularMatrix>; 2], values: &mut [f64], there: &mut [bool]) {
+    for (way, found) in both.into_iter().enumerate() {
+        let Ok(found) = found else { continue };
+        values[6 * row + 3 * way..][..3].copy_from_slice(found.as_slice());
+        there[2 * row + way] = true;
+    }
+}
+
+/// Matrices, singularities and motions of the rows of a C-contiguous `(n, 3)` array.
 pub fn velocity(
     py: Python<'_>,
     robot: &Manipulator,
     poses: PyReadonlyArray2<'_, f64>,
     mode: Option<&str>,
-    rates: PyReadonlyArray2<'_, f64>,
+    moving: &Moving<'_>,
     length: Option<f64>,
 ) -> PyResult<MotionBatch> {
     if let Some(signs) = mode {
@@ -107,22 +139,33 @@ pub fn velocity(
         return Err(Refused::input(KinematicsError::NotPositive { what: "length", value }).into());
     }
     let names = robot.mode_names();
-    let (rows, moving) = (poses.shape()[0], rates.shape()[0]);
+    let rows = poses.shape()[0];
+    let [moved, pushed, loaded] =
+        [&moving.rates, &moving.accelerations, &moving.wrenches].map(|given| given.shape()[0]);
     let modes = zeros::<u8>(py, &[rows], "u1")?;
     let matrices = zeros::<f64>(py, &[rows, 2, 3, 3], "f8")?;
     let readings = zeros::<f64>(py, &[rows, 5], "f8")?;
     let singularities = zeros::<u8>(py, &[rows], "u1")?;
-    let found_rates = zeros::<f64>(py, &[moving, 2, 3], "f8")?;
-    let answered = zeros::<bool>(py, &[moving, 2], "?")?;
+    let found_rates = zeros::<f64>(py, &[moved, 2, 3], "f8")?;
+    let answered = zeros::<bool>(py, &[moved, 2], "?")?;
+    let found_accelerations = zeros::<f64>(py, &[pushed, 2, 3], "f8")?;
+    let accelerated = zeros::<bool>(py, &[pushed, 2], "?")?;
+    let found_forces = zeros::<f64>(py, &[loaded, 3], "f8")?;
+    let held = zeros::<bool>(py, &[loaded], "?")?;
     let mut errors = Vec::new();
     {
-        let (poses, given) = (poses.as_slice()?, rates.as_slice()?);
-        let given = |row: usize| given.get(3 * row..3 * row + 3).map(Vector3::from_column_slice);
+        let poses = poses.as_slice()?;
+        let (given_rates, given_accelerations) = (moving.rates.as_slice()?, moving.accelerations.as_slice()?);
+        let given_wrenches = moving.wrenches.as_slice()?;
         let (mut modes, mut matrices, mut readings) = (modes.readwrite(), matrices.readwrite(), readings.readwrite());
         let (modes, matrices, readings) = (modes.as_slice_mut()?, matrices.as_slice_mut()?, readings.as_slice_mut()?);
         let (mut kinds, mut rates, mut answered) =
             (singularities.readwrite(), found_rates.readwrite(), answered.readwrite());
         let (kinds, rates, answered) = (kinds.as_slice_mut()?, rates.as_slice_mut()?, answered.as_slice_mut()?);
+        let (mut accelerations, mut accelerated) = (found_accelerations.readwrite(), accelerated.readwrite());
+        let (accelerations, accelerated) = (accelerations.as_slice_mut()?, accelerated.as_slice_mut()?);
+        let (mut forces, mut held) = (found_forces.readwrite(), held.readwrite());
+        let (forces, held) = (forces.as_slice_mut()?, held.as_slice_mut()?);
         let mut put = |row: usize, answer: &MotionAnswer| {
             let (velocity, singularity) = (&answer.velocity, &answer.singularity);
             modes[row] = names.iter().position(|name| *name == answer.signs).unwrap_or_default() as u8;
@@ -137,20 +180,27 @@ pub fn velocity(
                 singularity.dexterity,
             ]);
             if let Some(given) = answer.motion.rates {
-                let both: [Result<Vector3<f64>, SingularMatrix>; 2] =
-                    [velocity.input_rates(&given), velocity.pose_rates(&given)];
-                for (way, found) in both.into_iter().enumerate() {
-                    let Ok(found) = found else { continue };
-                    rates[6 * row + 3 * way..][..3].copy_from_slice(found.as_slice());
-                    answered[2 * row + way] = true;
-                }
+                put_both(row, [velocity.input_rates(&given), velocity.pose_rates(&given)], rates, answered);
+            }
+            if let Some(given) = answer.motion.accelerations {
+                let at = answer.motion.rates.unwrap_or_else(Vector3::zeros);
+                let both = [velocity.input_accelerations(&at, &given), velocity.pose_accelerations(&at, &given)];
+                put_both(row, both, accelerations, accelerated);
+            }
+            if let Some(Ok(found)) = answer.motion.wrench.map(|given| velocity.actuator_forces(&given)) {
+                forces[3 * row..3 * row + 3].copy_from_slice(found.as_slice());
+                held[row] = true;
             }
         };
         for first in (0..rows).step_by(ROWS_A_LOOK) {
             let last = rows.min(first + ROWS_A_LOOK);
             let answers: Vec<_> = py.detach(|| {
                 let ask = |row: usize| {
-                    let motion = Motion { rates: given(row), ..Motion::default() };
+                    let motion = Motion {
+                        rates: row_of(given_rates, row),
+                        accelerations: row_of(given_accelerations, row),
+                        wrench: row_of(given_wrenches, row),
+                    };
                     MotionAnswer::of(robot, &pose(&poses[3 * row..3 * row + 3]), mode, motion, length)
                 };
                 (first..last).into_par_iter().map(ask).collect()
@@ -178,6 +228,10 @@ pub fn velocity(
         singularities: singularities.unbind(),
         rates: found_rates.unbind(),
         answered: answered.unbind(),
+        accelerations: found_accelerations.unbind(),
+        accelerated: accelerated.unbind(),
+        forces: found_forces.unbind(),
+        held: held.unbind(),
         errors: Py::new(py, RowErrors { errors })?,
     })
 }

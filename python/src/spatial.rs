@@ -6,16 +6,19 @@ use std::sync::Arc;
 use assur::exchange::{
     AskedTilts, ErrorPlace, HanaFile, HanaTilts, MultipteronFile, TiltSections, TripodFile, hana_forward_json,
     hana_inverse_json, hana_velocity_json, hana_workspace_json, multipteron_forward_json, multipteron_inverse_json,
-    tilt_json, tripod_determinant_json, tripod_forward_json, tripod_inverse_json, tripod_velocity_json,
+    tilt_json, tripod_determinant_json, tripod_forward_json, tripod_inverse_json, tripod_pointing_json,
+    tripod_torsions_json, tripod_velocity_json,
 };
 use assur::nalgebra::{Matrix3, Vector3, Vector6};
 use assur::plot::PosedRobot;
-use assur::{ArcRegion, HanaMode, HanaPose, SpatialError, TripodDesign, TripodError, TripodPose, WorkspaceArc};
+use assur::{ArcRegion, HanaMode, HanaPose, SpatialError, Tripod, TripodDesign, TripodError, TripodPose, WorkspaceArc};
+use numpy::PyReadonlyArray2;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::answer::Answer;
 use crate::refused::Refused;
+use crate::spatial_batch::{self, SpatialBatch};
 
 /// Numbers that have to be finite.
 fn finite<'a>(what: &str, values: impl IntoIterator<Item = &'a f64>) -> Result<(), Refused> {
@@ -129,6 +132,18 @@ impl HanaModel {
         })?)
     }
 
+    /// Matrices, singularities, rates and accelerations of many rows; arrays without rows for what is not asked.
+    fn velocity_batch(
+        &self,
+        py: Python<'_>,
+        poses: PyReadonlyArray2<'_, f64>,
+        signs: &str,
+        rates: PyReadonlyArray2<'_, f64>,
+        accelerations: PyReadonlyArray2<'_, f64>,
+    ) -> PyResult<SpatialBatch> {
+        spatial_batch::hana(py, &self.file.robot, mode(signs)?, &poses, [&rates, &accelerations])
+    }
+
     /// The places of the platform's centre: for an orientation, or reachable over a range of them.
     #[pyo3(signature = (phi, range, signs))]
     fn workspace(&self, py: Python<'_>, phi: Option<f64>, range: Option<[f64; 2]>, signs: &str) -> PyResult<Answer> {
@@ -200,6 +215,17 @@ fn tripod_pose(values: &[f64]) -> Result<TripodPose, Refused> {
     }
 }
 
+/// Rates or accelerations: six of the platform or of the sliders, fewer, one for each motor, of the sliders.
+fn six(robot: &Tripod, what: &'static str, given: Option<&Vec<f64>>) -> Result<Option<Vector6<f64>>, Refused> {
+    let Some(given) = given else { return Ok(None) };
+    finite(what, given)?;
+    let all = match <[f64; 6]>::try_from(given.as_slice()) {
+        Ok(all) => all,
+        Err(_) => robot.all_sliders(what, given).map_err(asked)?,
+    };
+    Ok(Some(all.into()))
+}
+
 #[pymethods]
 impl TripodModel {
     #[staticmethod]
@@ -232,10 +258,47 @@ impl TripodModel {
         })?)
     }
 
-    fn forward(&self, py: Python<'_>, inputs: [f64; 6], certify: bool) -> PyResult<Answer> {
+    /// The sliders, from 1, that have a motor of their own.
+    #[getter]
+    fn motors(&self) -> Vec<usize> {
+        self.file.robot.motors()
+    }
+
+    /// The orientations that point the tool's axis in a direction.
+    fn pointing(&self, py: Python<'_>, direction: [f64; 3]) -> PyResult<Answer> {
+        Ok(py.detach(|| {
+            finite("direction", &direction)?;
+            let direction = Vector3::from(direction);
+            let found = self.file.robot.pointing(&direction).map_err(asked)?;
+            Ok::<_, Refused>(Answer::plain(tripod_torsions_json(&direction, &found)))
+        })?)
+    }
+
+    /// The poses at a place that point the tool's axis in a direction.
+    fn pointed(&self, py: Python<'_>, position: [f64; 3], direction: [f64; 3]) -> PyResult<Answer> {
+        Ok(py.detach(|| {
+            finite("position", &position)?;
+            finite("direction", &direction)?;
+            let (position, direction) = (Vector3::from(position), Vector3::from(direction));
+            let found = self.file.robot.pointed(&position, &direction).map_err(asked)?;
+            let (json, file) = (tripod_pointing_json(&position, &direction, &found), self.file.clone());
+            Ok::<_, Refused>(Answer::drawn(json, move || {
+                let angle = |way: &assur::TripodPointing| file.angle_unit.from_rad(way.torsion);
+                let posed = |way: &assur::TripodPointing| PosedRobot {
+                    caption: format!("torsion {:.6} {}", angle(way), file.angle_unit.name()),
+                    pose: way.pose,
+                    inputs: way.inputs,
+                };
+                assur::plot::draw_tripod_poses(&file.robot, &found.ways.iter().map(posed).collect::<Vec<_>>())
+            }))
+        })?)
+    }
+
+    fn forward(&self, py: Python<'_>, inputs: Vec<f64>, certify: bool) -> PyResult<Answer> {
         Ok(py.detach(|| {
             finite("inputs", &inputs)?;
             let robot = &self.file.robot;
+            let inputs = robot.all_sliders("inputs", &inputs).map_err(asked)?;
             let answer = if certify { robot.certify(&inputs) } else { robot.forward(&inputs) }.map_err(asked)?;
             let (json, file) = (tripod_forward_json(&answer), self.file.clone());
             Ok::<_, Refused>(Answer::drawn(json, move || {
@@ -254,22 +317,29 @@ impl TripodModel {
         &self,
         py: Python<'_>,
         pose: Vec<f64>,
-        rates: Option<[f64; 6]>,
-        accelerations: Option<[f64; 6]>,
+        rates: Option<Vec<f64>>,
+        accelerations: Option<Vec<f64>>,
     ) -> PyResult<Answer> {
         Ok(py.detach(|| {
-            finite("rates", rates.iter().flatten())?;
-            finite("accelerations", accelerations.iter().flatten())?;
-            let velocity = self.file.robot.velocity(&tripod_pose(&pose)?).map_err(asked)?;
-            let (rates, accelerations) = (rates.map(Vector6::from), accelerations.map(Vector6::from));
-            Ok::<_, Refused>(Answer::plain(tripod_velocity_json(
-                &self.file.robot,
-                &velocity,
-                rates,
-                accelerations,
-                true,
-            )))
+            let robot = &self.file.robot;
+            let of_platform = [&rates, &accelerations].into_iter().flatten().all(|given| given.len() == 6);
+            let rates = six(robot, "rates", rates.as_ref())?;
+            let accelerations = six(robot, "accelerations", accelerations.as_ref())?;
+            let velocity = robot.velocity(&tripod_pose(&pose)?).map_err(asked)?;
+            let json = tripod_velocity_json(robot, &velocity, rates, accelerations, of_platform);
+            Ok::<_, Refused>(Answer::plain(json))
         })?)
+    }
+
+    /// Jacobians, singularities, rates and accelerations of many rows; arrays without rows for what is not asked.
+    fn velocity_batch(
+        &self,
+        py: Python<'_>,
+        poses: PyReadonlyArray2<'_, f64>,
+        rates: PyReadonlyArray2<'_, f64>,
+        accelerations: PyReadonlyArray2<'_, f64>,
+    ) -> PyResult<SpatialBatch> {
+        spatial_batch::tripod(py, &self.file.robot, &poses, [&rates, &accelerations])
     }
 
     /// The largest tilt at a place, with the angle that is proved for every azimuth.

@@ -20,6 +20,7 @@ pub struct Shape {
     reach: Reach,
     workspace: Arc<Workspace>,
     slices: Vec<Workspace>,
+    overlays: Arc<Vec<Workspace>>,
 }
 
 /// What is asked of a workspace, as on the command line; angles in radians.
@@ -37,6 +38,8 @@ pub struct Asked {
     gradient: Vec<String>,
     /// Numbers of the design with their bounds, for the largest area.
     optimise: Vec<(String, [f64; 2])>,
+    /// Other kinds over it, each with its angles as above.
+    overlays: Vec<(String, [f64; 3])>,
 }
 
 /// A kind by its name, as on the command line; angles in radians.
@@ -63,6 +66,10 @@ pub fn workspace(file: &Arc<ModelFile>, asked: &Asked) -> Result<(Answer, Shape)
     };
     let workspace = Arc::new(found.map_err(Refused::input)?);
     let mut report = WorkspaceReport::new(&workspace, &modes, asked.assembly, &[]);
+    let overlaid = |(name, [phi, from, to]): &(String, [f64; 3])| reach.workspace(&kind_of(name, *phi, *from, *to));
+    let overlays = asked.overlays.iter().map(overlaid).collect::<Result<Vec<_>, _>>().map_err(Refused::input)?;
+    report.overlays = overlays.iter().map(|other| WorkspaceReport::new(other, &modes, None, &[])).collect();
+    let overlays = Arc::new(overlays);
     let mut slices = Vec::new();
     if let Some(count) = asked.slices {
         let range = match kind {
@@ -90,9 +97,9 @@ pub fn workspace(file: &Arc<ModelFile>, asked: &Asked) -> Result<(Answer, Shape)
         report = report.with_optimum(&names, &best);
     }
     let json = report.to_json();
-    let shape = Shape { reach: reach.clone(), workspace: workspace.clone(), slices };
+    let shape = Shape { reach: reach.clone(), workspace: workspace.clone(), slices, overlays: overlays.clone() };
     let file = file.clone();
-    let draw = move || draw(&file.manipulator, &reach, &workspace);
+    let draw = move || draw(&file, &reach, &workspace, &overlays);
     Ok((Answer::drawn(json, draw), shape))
 }
 
@@ -102,12 +109,30 @@ fn numbers(robot: &Manipulator, name: &str) -> Result<(String, Vec<DesignNumber>
     Ok((key.to_string(), key.numbers(robot).map_err(Refused::input)?))
 }
 
-/// The workspace over what each leg reaches alone, where that is bounded.
-fn draw(robot: &Manipulator, reach: &Reach, workspace: &Workspace) -> String {
+/// The workspace over what each leg reaches alone, where that is bounded; or with others over it.
+fn draw(file: &ModelFile, reach: &Reach, workspace: &Workspace, overlays: &[Workspace]) -> String {
+    let robot = &file.manipulator;
+    if !overlays.is_empty() {
+        let layer = |workspace| WorkspaceLayer { name: layer_name(workspace, file), workspace };
+        let layers: Vec<_> = std::iter::once(workspace).chain(overlays).map(layer).collect();
+        return draw_workspaces(robot, &layers, &[]);
+    }
     let layer = WorkspaceLayer { name: workspace.kind.name().to_owned(), workspace };
     let alone = |leg| reach.only(leg).workspace(&workspace.kind).ok().map(|own| own.region);
     let legs: Vec<Region> = (0..robot.legs.len()).map_while(alone).collect();
     draw_workspaces(robot, &[layer], if legs.len() == robot.legs.len() { &legs } else { &[] })
+}
+
+/// A kind with its angles, in the file's unit.
+fn layer_name(workspace: &Workspace, file: &ModelFile) -> String {
+    let angle = |angle: f64| format!("{:.4} {}", file.angle_unit.from_rad(angle), file.angle_unit.name());
+    match &workspace.kind {
+        WorkspaceKind::Constant { phi } => format!("constant, φ = {}", angle(*phi)),
+        WorkspaceKind::Maximal | WorkspaceKind::Dextrous => workspace.kind.name().to_owned(),
+        WorkspaceKind::Inclusive(range) | WorkspaceKind::Total(range) => {
+            format!("{}, φ {} … {}", workspace.kind.name(), angle(range.from), angle(range.from + range.width))
+        }
+    }
 }
 
 fn flat(arcs: &[BoundaryArc], points: usize) -> Vec<f64> {
@@ -138,6 +163,13 @@ impl Shape {
         let outlines =
             |slice: &Workspace| slice.region.loops.iter().map(|one| flat(&one.arcs, points.max(2))).collect();
         py.detach(|| self.slices.iter().map(outlines).collect())
+    }
+
+    /// The loops of each overlay as closed polygons, flat.
+    fn overlays(&self, py: Python<'_>, points: usize) -> Vec<Vec<Vec<f64>>> {
+        let outlines =
+            |other: &Workspace| other.region.loops.iter().map(|one| flat(&one.arcs, points.max(2))).collect();
+        py.detach(|| self.overlays.iter().map(outlines).collect())
     }
 
     /// The boundary as a DXF drawing.

@@ -182,6 +182,54 @@ def test_tripod(cli: Cli) -> None:
     assert map_.to_json() == cli("tripod", "tilt", file, *corners, "--json")
 
 
+def test_tripods_with_fewer_motors(cli: Cli, tmp_path: Path) -> None:
+    file = EXAMPLES / "tripod-5dof.toml"
+    robot = assur.Tripod.from_file(file)
+    assert (robot.motors, robot.degrees_of_freedom) == ((1, 3, 4, 5, 6), 5)
+    place, direction = [200.0, 260.0, 240.0], [0.43, 0.43, 0.79]
+    found = robot.pointed(place, direction)
+    asked = [f"--pose={joined(place)}", f"--direction={joined(direction)}"]
+    assert found.to_json() == cli("tripod", "inverse", file, *asked, "--json")
+    assert found.status == "complete" and len(found) == 2
+    turned = robot.pointing(direction)
+    assert [way.torsion for way in turned] == [way.torsion for way in found]
+    assert all(np.array_equal(a.rotation, b.pose.rotation) for a, b in zip(turned, found, strict=True))
+    for way in found:
+        five = way.inputs[[0, 2, 3, 4, 5]]
+        assert robot.forward(five).to_json() == cli("tripod", "forward", file, f"--inputs={joined(five)}", "--json")
+        assert robot.forward(five) == robot.forward(way.inputs)
+        pose = [*place, *way.pose.rotation.ravel()]
+        moved = robot.velocity(pose, rates=[1, 2, 3, 4, 5], accelerations=[0, 0, 1, 0, 0])
+        options = ["--rates=1,2,3,4,5", "--accelerations=0,0,1,0,0", "--json"]
+        assert moved.to_json() == cli("tripod", "velocity", file, f"--pose={joined(pose)}", *options)
+        assert moved.rates is not None and moved.rates.inputs_if_pose is None and moved.rates.pose_if_inputs is not None
+        # Sliders of the leg with one motor that part have no motion of the platform, and say so.
+        parted = robot.velocity(pose, rates=[1, 0, 0, 0, 0, 0]).rates
+        assert parted is not None and parted.pose_if_inputs is None and parted.reasons[0].startswith("leg 1")
+    with pytest.raises(assur.InputError, match=r"inputs: shape \(4,\) must be \(5,\) or \(6,\)"):
+        robot.forward([1, 2, 3, 4])
+    with pytest.raises(assur.InputError, match="leg 1: has one motor") as refused:
+        robot.forward([1, 2, 3, 4, 5, 6])
+    assert (refused.value.leg, refused.value.field) == (1, "motors")
+    # Where every torsion serves that is said, and no torsion is an empty answer.
+    free = tmp_path / "free.toml"
+    free.write_text(file.read_text().replace("tool_axis = [1.0, 1.0, 1.0]", "tool_axis = [0.0, 1.0, 0.0]"))
+    along = assur.Tripod.from_file(free)
+    every, none = along.pointed(place, [0, 0.8, 0.6]), along.pointed(place, [0.6, 0.8, 0])
+    assert every.to_json() == cli("tripod", "inverse", free, asked[0], "--direction=0,0.8,0.6", "--json")
+    assert (every.status, len(every), none.status, len(none)) == ("every_torsion", 1, "complete", 0)
+    assert "every torsion serves" in repr(along.pointing([0, 0.8, 0.6]))
+
+    four = assur.Tripod.from_file(EXAMPLES / "tripod-4dof.toml")
+    pose = [200.0, 260.0, 240.0, 0.0, math.radians(5.0), 0.0]
+    inputs = four.inverse(pose).inputs[[0, 2, 4, 5]]
+    asked = [f"--inputs={joined(inputs)}", "--json"]
+    assert four.forward(inputs).to_json() == cli("tripod", "forward", EXAMPLES / "tripod-4dof.toml", *asked)
+    with pytest.raises(assur.InputError, match="5 degrees of freedom; this one has 4") as refused:
+        four.pointing([1, 1, 1])
+    assert refused.value.field == "motors"
+
+
 @pytest.mark.parametrize("name", ["tripteron", "quadrupteron", "hexapteron"])
 def test_multipterons(cli: Cli, name: str) -> None:
     file = EXAMPLES / f"{name}.toml"

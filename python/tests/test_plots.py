@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 
 import assur
 
+from .conftest import EXAMPLES
 from .test_results import ANSWERS, HANA, INPUTS, ROBOT, TRIPOD
 
 
@@ -58,6 +59,18 @@ def test_batch_and_nothing_to_draw() -> None:
     assert len(np.asarray(ax.collections[0].get_offsets())) == int(batch.counts.sum())
     assert isinstance(ROBOT.forward([1.0, 1.0, 100.0]).plot(), Axes)
     assert isinstance(ROBOT.forward(np.empty((0, 3))).plot(), Axes)
+
+
+def test_workspaces_without_area_are_drawn() -> None:
+    dextrous = assur.Manipulator.from_file(EXAMPLES / "workspaces" / "table1-4a.toml").workspace("dextrous")
+    (part,) = dextrous.isolated
+    ax = dextrous.plot()
+    (line,) = ax.get_lines()
+    assert part.start is not None and part.end is not None and "no area" in ax.get_title()
+    drawn = np.asarray(line.get_xydata())
+    assert np.allclose(drawn[0], part.start) and np.allclose(drawn[-1], part.end)
+    nothing = assur.Manipulator.from_file(EXAMPLES / "workspaces" / "table1-1a.toml").workspace("dextrous").plot()
+    assert [text.get_text() for text in nothing.texts] == ["empty"]
 
 
 def test_an_animation_is_written(tmp_path: Path) -> None:

@@ -117,6 +117,44 @@ def test_singularities_have_names() -> None:
     assert batch.pose_if_inputs is not None and batch.pose_if_inputs.mask[0].all() and not batch.pose_if_inputs.mask[1].any()
 
 
+def test_accelerations_and_forces_are_those_of_one_pose(rng: np.random.Generator) -> None:
+    poses = np.array([[3.0, 3.0, 0.1], [np.nan, 3.0, 0.1], [3.2, 2.9, -0.2], [1e9, 0.0, 0.0], [2.8, 3.1, 0.3]])
+    rates, wrench = rng.normal(size=(5, 3)), rng.normal(size=(5, 3))
+    accelerations = [0.5, -1.0, 2.0]
+    for moving in (rates, None):
+        batch = RRR.velocity(poses, "+++", rates=moving, accelerations=accelerations, wrench=wrench)
+        found = [batch.input_accelerations_if_pose, batch.pose_accelerations_if_inputs, batch.actuator_forces]
+        assert (batch.inputs_if_pose is None) == (moving is None)
+        answered = 0
+        for row, pose in enumerate(poses):
+            arrays = [None if array is None else array[row] for array in found]
+            assert all(array is not None for array in arrays)
+            if row in batch.errors:
+                assert all(array.mask.all() for array in arrays if array is not None)
+                continue
+            here = None if moving is None else moving[row]
+            one = RRR.velocity(pose.tolist(), "+++", rates=here, accelerations=accelerations, wrench=wrench[row])
+            assert one.accelerations is not None and one.wrench is not None
+            both = [one.accelerations.inputs_if_pose, one.accelerations.pose_if_inputs, one.wrench.actuator_forces]
+            for array, expected in zip(arrays, both, strict=True):
+                assert array is not None and expected is not None and array.tolist() == expected.tolist()
+                answered += 1
+        assert list(batch.errors) == [1, 3] and answered == 9
+    assert RRR.velocity(poses, "+++").actuator_forces is None
+
+
+def test_a_singularity_masks_accelerations_and_forces() -> None:
+    legs = (([0.0, 0.0], [0.0, 1.0]), ([4.0, 0.0], [2.0, 1.0]), ([2.0, 4.0], [1.0, 3.0]))
+    described = [{"joints": "R_P_R", "base": {"at": a}, "platform": {"at": b}} for a, b in legs]
+    robot = assur.Manipulator.from_dict({"schema": "assur/manipulator/1", "leg": described})
+    poses = np.array([[0.0, 0.0, 0.0], [1.1, 1.0, 0.2]])
+    batch = robot.velocity(poses, "+++", accelerations=[0.0, 0.0, 1.0], wrench=[1.0, 0.0, 0.0])
+    forward, forces = batch.pose_accelerations_if_inputs, batch.actuator_forces
+    assert forward is not None and forces is not None and batch.input_accelerations_if_pose is not None
+    assert forward.mask.all(axis=1).tolist() == forces.mask.all(axis=1).tolist() == [True, False]
+    assert not batch.input_accelerations_if_pose.mask.any()
+
+
 def test_bad_rows_are_masked_with_their_reason() -> None:
     poses = np.array([[3.0, 3.0, 0.1], [np.nan, 3.0, 0.1], [1e9, 0.0, 0.0]])
     ways = RRR.inverse(poses)
@@ -135,8 +173,8 @@ def test_what_cannot_be_asked_is_named() -> None:
         RRR.velocity(poses, "+*+")
     with pytest.raises(assur.InputError, match="length: -1 must be > 0"):
         RRR.velocity(poses, "+++", length=-1.0)
-    with pytest.raises(assur.InputError, match="wrench: of one pose only"):
-        RRR.velocity(poses, "+++", wrench=[0, 0, 1])
+    with pytest.raises(assur.InputError, match=r"wrench: shape \(2,\) must be \(3,\) or \(1, 3\)"):
+        RRR.velocity(poses, "+++", wrench=[0, 1])
     with pytest.raises(assur.InputError, match=r"rates: shape \(2, 3\) must be \(3,\) or \(1, 3\)"):
         RRR.velocity(poses, "+++", rates=np.zeros((2, 3)))
     with pytest.raises(assur.InputError, match=r"pose: shape \(2, 4\) must be \(3,\) or \(n, 3\)"):

@@ -156,6 +156,43 @@ def test_regions_over_one_another() -> None:
     assert len({line.get_color() for line in ax.lines if not str(line.get_label()).startswith("_")}) == 3
 
 
+def test_overlays(cli: Callable[..., str]) -> None:
+    path = EXAMPLES / "workspaces" / "table1-2c.toml"
+    robot = assur.Manipulator.from_file(path)
+    overlays: list[str | tuple[Any, ...]] = ["dextrous", ("constant", math.radians(30.0)), ("total", math.radians(10.0), math.radians(20.0))]
+    found = robot.workspace("inclusive", lower=0.0, upper=math.radians(90.0), overlays=overlays)
+    options = ["--overlay", "dextrous", "--overlay", "constant:30", "--overlay", "total:10:20", "--json"]
+    assert found.to_json() == cli("workspace", path, "inclusive", "--from=0", "--to=90", *options)
+    assert [other.kind for other in found.overlays] == ["dextrous", "constant", "total"]
+    alone = robot.workspace("constant", phi=math.radians(30.0))
+    assert found.overlays[1].area == alone.area
+    outlines = found.overlay_outlines()
+    assert [len(loops) for loops in outlines] == [len(other.loops) for other in found.overlays]
+    assert all(np.array_equal(a, b) for a, b in zip(outlines[1], alone.outlines(), strict=True))
+    labels = found.plot().get_legend_handles_labels()[1]
+    assert len(labels) == 4 and labels[0] == "inclusive" and labels[2].startswith("constant at phi")
+    assert "constant, φ = 30" in (found.svg() or "")
+    again = pickle.loads(pickle.dumps(found))
+    assert again == found and again.overlay_outlines()[1][0].shape == outlines[1][0].shape
+    bad: dict[str | tuple[Any, ...], str] = {"round": "overlays: 'round' must be", ("total", 1.0): "total has 1 angles, must have lower, upper"}
+    for wrong, reason in bad.items():
+        with pytest.raises(assur.InputError, match=reason):
+            robot.workspace(overlays=[wrong])
+
+
+def test_stroke_voids() -> None:
+    robot = assur.Manipulator.from_file(EXAMPLES / "workspaces" / "prr-symmetric-radial-void.toml")
+    voids = robot.stroke_voids()
+    for void, leg in zip(voids, robot.to_dict()["leg"], strict=True):
+        assert void is not None and void.kind == "lens" and void.points.shape == (2, 2) and void.area > 0
+        # The tips are a link's length from both ends of the stroke, so twice the height of the lens is their distance.
+        low, high = leg["limits"]["1"]
+        link = float(np.hypot(*leg["links"][1]["at"]))
+        apart = float(np.linalg.norm(np.subtract(*void.points)))
+        assert apart == pytest.approx(2 * math.sqrt(link**2 - ((high - low) / 2) ** 2))
+    assert assur.Manipulator.of_family("3-RPR")[0].stroke_voids() == (None, None, None)
+
+
 def test_one_assembly_alone() -> None:
     robot = ROBOT.with_numbers({"leg1.limits.min": 11.5})
     whole = robot.workspace()

@@ -266,8 +266,9 @@ impl From<&TripodError> for ErrorPlace {
             E::OneRail { leg } => Self::leg(*leg).and_field("u"),
             E::ParallelAxes { leg } | E::ParallelRail { leg } => Self::leg(*leg).and_field("pose"),
             E::NoRotation { off } => Self::field("rotation").and_value(FoundValue::Number(*off)),
-            E::OneMotor { leg, apart } => Self::leg(*leg).and_value(FoundValue::Number(*apart)),
-            E::Singular { .. } | E::DegreesOfFreedom { .. } => Self::field("pose"),
+            E::OneMotor { leg, apart } => Self::leg(*leg).and_field("motors").and_value(FoundValue::Number(*apart)),
+            E::Singular { .. } => Self::field("pose"),
+            E::DegreesOfFreedom { found, .. } => Self::field("motors").and_value(FoundValue::Count(*found)),
         }
     }
 }

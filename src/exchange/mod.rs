@@ -72,7 +72,7 @@ pub use spatial_file::{HanaFile, TripodFile};
 pub use spatial_report::{
     capability_stop_name, hana_capability_json, hana_forward_json, hana_inverse_json, hana_velocity_json,
     hana_workspace_json, tilt_json, tilt_limit_name, tilt_map_json, tripod_determinant_csv, tripod_determinant_json,
-    tripod_forward_json, tripod_inverse_json, tripod_pointing_json, tripod_velocity_json,
+    tripod_forward_json, tripod_inverse_json, tripod_pointing_json, tripod_torsions_json, tripod_velocity_json,
 };
 #[cfg(feature = "batch")]
 pub use sweep::{Measure, Sweep, SweepError, SweepTable, Variation};

@@ -1,14 +1,14 @@
 //! Answers about the two spatial robots as JSON documents. Angles in radians.
 
-use nalgebra::{Matrix3, Vector3, Vector6};
+use nalgebra::{Matrix3, Rotation3, Vector3, Vector6};
 use serde_json::{Value, json};
 
 use crate::solve::Account;
 use crate::spatial::{
     ArcRegion, Capability, CapabilityMap, CapabilityStop, CapabilitySupremum, Counted, DeterminantPoint,
     HanaAssemblies, HanaPose, HanaVelocity, HanaViolation, HanaWays, MixedReach, MixedSingularity, SpatialError, Tilt,
-    TiltLimit, Tripod, TripodAssemblies, TripodAssembly, TripodDesign, TripodError, TripodPointing, TripodPose,
-    TripodReach, TripodVelocity, WorkspaceArc, WorkspaceCurve,
+    TiltLimit, Tripod, TripodAssemblies, TripodAssembly, TripodDesign, TripodError, TripodPointed, TripodPose,
+    TripodReach, TripodTorsions, TripodVelocity, WorkspaceArc, WorkspaceCurve,
 };
 
 pub(super) fn text(document: &Value) -> String {
@@ -174,7 +174,8 @@ pub fn hana_capability_json(
     map: Option<&CapabilityMap>,
     curve: &[(f64, Option<f64>)],
 ) -> String {
-    let best = supremum.map(|best| json!({ "zeta": best.zeta, "at": best.at, "attained": best.attained }));
+    let best = supremum
+        .map(|best| json!({ "zeta": best.zeta, "at": best.at, "attained": best.attained, "at_most": best.at_most }));
     let mut document = json!({ "schema": "assur/hana-capability/1", "supremum": best });
     if let Some((place, found)) = at {
         document["at"] = json!(place);
@@ -220,9 +221,24 @@ pub fn tripod_inverse_json(
     }))
 }
 
-/// The poses that point a tool in a direction.
-pub fn tripod_pointing_json(position: &Vector3<f64>, direction: &Vector3<f64>, found: &[TripodPointing]) -> String {
+/// The orientations that point a tool in a direction; where every torsion serves (`every_torsion`), that of torsion 0.
+pub fn tripod_torsions_json(direction: &Vector3<f64>, found: &TripodTorsions) -> String {
+    let one =
+        |torsion: f64, rotation: &Rotation3<f64>| json!({ "torsion": torsion, "rotation": rows(rotation.matrix()) });
+    let solutions: Vec<Value> = match found {
+        TripodTorsions::Isolated(found) => found.iter().map(|(torsion, rotation)| one(*torsion, rotation)).collect(),
+        TripodTorsions::Every(rotation) => vec![one(0.0, rotation)],
+    };
+    text(&json!({
+        "schema": "assur/tripod-torsions/1", "status": found.status(), "direction": direction.as_slice(),
+        "solutions": solutions,
+    }))
+}
+
+/// The poses that point a tool in a direction; where every torsion serves (`every_torsion`), that of torsion 0.
+pub fn tripod_pointing_json(position: &Vector3<f64>, direction: &Vector3<f64>, found: &TripodPointed) -> String {
     let ways: Vec<Value> = found
+        .ways
         .iter()
         .map(|way| {
             json!({
@@ -232,7 +248,7 @@ pub fn tripod_pointing_json(position: &Vector3<f64>, direction: &Vector3<f64>, f
         })
         .collect();
     text(&json!({
-        "schema": "assur/tripod-pointing/1", "position": position.as_slice(), "direction": direction.as_slice(),
+        "schema": "assur/tripod-pointing/1", "status": found.status(), "position": position.as_slice(), "direction": direction.as_slice(),
         "solutions": ways,
     }))
 }

@@ -22,6 +22,6 @@ pub use remarks::SpatialRemark;
 pub use tripod::{
     CartesianRobot, CartesianSingular, Counted, DeterminantPoint, Hexapteron, Multipteron, MultipteronError,
     MultipteronPoses, Orientations, PlaneConditions, Quadrupteron, Tilt, TiltLimit, Tripod, TripodAssemblies,
-    TripodAssembly, TripodDesign, TripodError, TripodLeg, TripodPointing, TripodPose, TripodReach, TripodSingularity,
-    TripodStatus, TripodVelocity, Tripteron,
+    TripodAssembly, TripodDesign, TripodError, TripodLeg, TripodPointed, TripodPointing, TripodPose, TripodReach,
+    TripodSingularity, TripodStatus, TripodTorsions, TripodVelocity, Tripteron,
 };

@@ -57,15 +57,17 @@ pub struct Capability {
     pub stops: [CapabilityStop; 2],
 }
 
-/// The largest capability over the workspace of `phi = 0`.
+/// The largest capability over the workspace of `phi = 0`; angles in radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CapabilitySupremum {
-    /// `zeta`, in radians.
+    /// `zeta`: what is had, or approached.
     pub zeta: f64,
-    /// Where it is had, or approached.
+    /// Where, `[y, z]`.
     pub at: [f64; 2],
     /// Whether it is had there; else it is approached from below, and drops beyond.
     pub attained: bool,
+    /// No place has more than this, in radians: shown.
+    pub at_most: f64,
 }
 
 /// Capabilities over a grid of places.
@@ -88,11 +90,16 @@ impl CapabilityMap {
     }
 }
 
-/// Places along `y` at which the largest capability is first sought, and halvings of the gaps around the best.
-const COARSE: usize = 240;
-const FINE: usize = 60;
-/// Orientations closer than this are one candidate.
-const SAME: f64 = 1e-13;
+/// Which ends of the strokes of legs 1 and 2 count.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Ends {
+    Both,
+    /// Those on the platform's side: the lower ones of sliders above.
+    Near,
+}
+
+/// Orientations closer than this are one candidate, in radians.
+pub(super) const SAME: f64 = 1e-13;
 
 impl Hana {
     /// How far the platform tilts at a place, from level, in a mode with sliders 1 and 2 on the same side; `None` outside the workspace of `phi = 0`.
@@ -119,11 +126,11 @@ impl Hana {
             let input = at[1] + mode.sign(2) * third.sqrt();
             (self.strokes[2][0]..=self.strokes[2][1]).contains(&input)
         };
-        if !third_in || !self.pair_allowed(at, mode, 0.0) {
+        if !third_in || !self.pair_allowed(at, mode, 0.0, Ends::Both) {
             return Ok(None);
         }
-        let stops = self.stops(at, mode, true);
-        let sides = [-1.0, 1.0].map(|side| self.first_stop(at, mode, &stops, side));
+        let stops = self.stops(at, mode, Ends::Both);
+        let sides = [-1.0, 1.0].map(|side| self.first_stop(at, mode, &stops, side, Ends::Both));
         let zeta = 2.0 * sides[0].0.abs().min(sides[1].0.abs());
         Ok(Some(Capability { zeta, range: sides.map(|s| s.0), stops: sides.map(|s| s.1) }))
     }
@@ -150,74 +157,6 @@ impl Hana {
         Ok(map)
     }
 
-    /// The largest capability over the workspace of `phi = 0`; `None` where that is empty.
-    ///
-    /// Along `z` the largest is among four places in closed form, since what the near ends of the strokes allow grows with `z` and what the far ends allow falls, with
-    /// one jump at `hi - sqrt((l + r)² - R²)`, `l = sqrt(L² - y²)`. Along `y` it is sought on a grid and refined: not proved to be the largest.
-    /// Where the strokes of legs 1 and 2 differ, what both have in common counts: over tilts from `-a` to `a` slider 2 is at the heights of slider 1.
-    ///
-    /// # Errors
-    /// Sliders 1 and 2 on opposite sides of their joints.
-    ///
-    /// ```
-    /// use assur::{Hana, HanaMode};
-    /// let best = Hana::example().capability_supremum(HanaMode::ABOVE)?.unwrap();
-    /// assert!((best.zeta.to_degrees() - 139.73387603161154).abs() < 1e-8 && !best.attained); // printed: 139.2
-    /// # Ok::<(), assur::HanaCapabilityError>(())
-    /// ```
-    pub fn capability_supremum(&self, mode: HanaMode) -> Result<Option<CapabilitySupremum>, HanaCapabilityError> {
-        if mode.above[0] != mode.above[1] {
-            return Err(HanaCapabilityError::OppositeSides { mode });
-        }
-        let [[low, high], [other_low, other_high], third] = self.strokes;
-        let common = [low.max(other_low), high.min(other_high)];
-        if common[0] > common[1] {
-            return Ok(None);
-        }
-        let robot = Self { strokes: [common, common, third], ..self.clone() };
-        robot.supremum_of_equal_strokes(mode)
-    }
-
-    fn supremum_of_equal_strokes(&self, mode: HanaMode) -> Result<Option<CapabilitySupremum>, HanaCapabilityError> {
-        let region = self.workspace(0.0, mode)?;
-        let mut best: Option<CapabilitySupremum> = None;
-        for (_, arcs) in &region.loops {
-            let ends = arcs.iter().flat_map(|arc| [arc.start[0], arc.end[0]]);
-            let (low, high) = ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| (l.min(y), h.max(y)));
-            let mut places: Vec<f64> = (0..=COARSE).map(|k| low + (high - low) * k as f64 / COARSE as f64).collect();
-            if low < 0.0 && high > 0.0 {
-                places.push(0.0);
-            }
-            places.sort_by(f64::total_cmp);
-            let value = |y: f64| self.best_height(y, mode);
-            let values: Vec<Option<CapabilitySupremum>> = places.iter().map(|&y| value(y)).collect();
-            let zeta = |found: &Option<CapabilitySupremum>| found.map_or(-1.0, |found| found.zeta);
-            let top = (0..places.len()).max_by(|&a, &b| zeta(&values[a]).total_cmp(&zeta(&values[b])));
-            let Some(top) = top else { continue };
-            let mut here = values[top];
-            let (mut a, mut b) = (places[top.saturating_sub(1)], places[(top + 1).min(places.len() - 1)]);
-            for _ in 0..FINE {
-                let (p, q) = (a + (b - a) / 3.0, b - (b - a) / 3.0);
-                let (at_p, at_q) = (value(p), value(q));
-                if zeta(&at_p) < zeta(&at_q) {
-                    a = p
-                } else {
-                    b = q
-                }
-                for candidate in [at_p, at_q] {
-                    // A place that is better by rounding alone is none.
-                    if zeta(&candidate) > zeta(&here) + SAME {
-                        here = candidate;
-                    }
-                }
-            }
-            if zeta(&here) > zeta(&best) {
-                best = here;
-            }
-        }
-        Ok(best)
-    }
-
     /// The same robot with every stroke of this half length about its middle.
     ///
     /// # Errors
@@ -232,8 +171,8 @@ impl Hana {
         Ok(robot)
     }
 
-    /// The largest capability above one `y`.
-    fn best_height(&self, y: f64, mode: HanaMode) -> Option<CapabilitySupremum> {
+    /// The largest capability above one `y`, itself for `at_most`; sliders 1 and 2 with the same strokes.
+    pub(super) fn best_height(&self, y: f64, mode: HanaMode) -> Option<CapabilitySupremum> {
         let up = mode.sign(0);
         let flat_square = (self.link - y) * (self.link + y);
         let third = self.third_height_square(y);
@@ -261,33 +200,34 @@ impl Hana {
         let mut best: Option<CapabilitySupremum> = None;
         let mut offer = |zeta: f64, z: f64, attained: bool| {
             if best.is_none_or(|known| zeta > known.zeta) {
-                best = Some(CapabilitySupremum { zeta, at: [y, z], attained });
+                best = Some(CapabilitySupremum { zeta, at: [y, z], attained, at_most: zeta });
             }
         };
         for z in [Some(low), Some(high), cross].into_iter().flatten().filter(|z| (low..=high).contains(z)) {
-            let (stops, at) = (self.stops([y, z], mode, true), [y, z]);
-            if self.pair_allowed(at, mode, 0.0) {
-                offer(2.0 * self.first_stop(at, mode, &stops, 1.0).0, z, true);
+            let (stops, at) = (self.stops([y, z], mode, Ends::Both), [y, z]);
+            if self.pair_allowed(at, mode, 0.0, Ends::Both) {
+                offer(2.0 * self.first_stop(at, mode, &stops, 1.0, Ends::Both).0, z, true);
             }
         }
         if let Some(z) = jump.filter(|z| (low..=high).contains(z)) {
             // Just before the jump only the near ends of the strokes count.
-            let (stops, at) = (self.stops([y, z], mode, false), [y, z]);
-            let first = stops.iter().map(|&(phi, _)| phi).filter(|&phi| phi > 0.0).fold(FRAC_PI_2, f64::min);
-            offer(2.0 * first, at[1], false);
+            let (stops, at) = (self.stops([y, z], mode, Ends::Near), [y, z]);
+            if self.pair_allowed(at, mode, 0.0, Ends::Near) {
+                offer(2.0 * self.first_stop(at, mode, &stops, 1.0, Ends::Near).0, z, false);
+            }
         }
         best
     }
 
-    /// Orientations at which something may end, with what it is; all of them, or without the far ends of strokes 1 and 2.
-    fn stops(&self, [y, z]: [f64; 2], mode: HanaMode, far_ends: bool) -> Vec<(f64, CapabilityStop)> {
+    /// Orientations at which something may end, with what it is; for these ends of strokes 1 and 2.
+    fn stops(&self, [y, z]: [f64; 2], mode: HanaMode, ends: Ends) -> Vec<(f64, CapabilityStop)> {
         let (r, base, l) = (self.platform_radius, self.base_radius, self.link);
         let mut stops = vec![(-FRAC_PI_2, CapabilityStop::QuarterTurn), (FRAC_PI_2, CapabilityStop::QuarterTurn)];
         for leg in 0..2 {
             let turn = if leg == 0 { 1.0 } else { -1.0 };
             for end in 0..2 {
                 let upper = end == 1;
-                if !far_ends && upper == mode.above[0] {
+                if ends == Ends::Near && upper == mode.above[0] {
                     continue;
                 }
                 let down = z - self.strokes[leg][end];
@@ -330,6 +270,7 @@ impl Hana {
         mode: HanaMode,
         stops: &[(f64, CapabilityStop)],
         side: f64,
+        ends: Ends,
     ) -> (f64, CapabilityStop) {
         let mut ahead: Vec<(f64, CapabilityStop)> = stops
             .iter()
@@ -339,7 +280,7 @@ impl Hana {
         ahead.sort_by(|a, b| a.0.total_cmp(&b.0));
         // With a slider at an end already, rounding may have put the orientation at which it leaves on the other side.
         let next = ahead.iter().map(|next| next.0).find(|&next| next > SAME).unwrap_or(FRAC_PI_2);
-        if !self.pair_allowed(at, mode, side * 0.5 * next) {
+        if !self.pair_allowed(at, mode, side * 0.5 * next, ends) {
             let nearest = stops.iter().min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
             return (0.0, nearest.map_or(CapabilityStop::QuarterTurn, |&(_, stop)| stop));
         }
@@ -347,7 +288,7 @@ impl Hana {
             let singular = matches!(stop, CapabilityStop::QuarterTurn | CapabilityStop::InLine);
             let next = ahead[k + 1..].iter().map(|next| next.0).find(|next| next - phi > SAME);
             let beyond = 0.5 * (phi + next.unwrap_or(PI));
-            if singular || !self.pair_allowed(at, mode, side * beyond) {
+            if singular || !self.pair_allowed(at, mode, side * beyond, ends) {
                 // Of several at once, the one that does not hold beyond is named; any will do.
                 return (side * phi, stop);
             }
@@ -356,13 +297,23 @@ impl Hana {
     }
 
     /// Whether sliders 1 and 2 are within their strokes.
-    fn pair_allowed(&self, [y, z]: [f64; 2], mode: HanaMode, phi: f64) -> bool {
+    fn pair_allowed(&self, [y, z]: [f64; 2], mode: HanaMode, phi: f64, ends: Ends) -> bool {
         let square = self.height_square(y, phi.cos());
         let joints = self.joint_heights(&HanaPose::new(y, z, phi));
         square >= 0.0
             && (0..2).all(|leg| {
                 let input = joints[leg] + mode.sign(leg) * square.sqrt();
-                (self.strokes[leg][0]..=self.strokes[leg][1]).contains(&input)
+                let [low, high] = self.strokes[leg];
+                match ends {
+                    Ends::Both => (low..=high).contains(&input),
+                    Ends::Near => {
+                        if mode.above[leg] {
+                            input >= low
+                        } else {
+                            input <= high
+                        }
+                    }
+                }
             })
     }
 }

@@ -21,6 +21,7 @@ mod forward;
 mod inverse;
 mod mixed;
 mod model;
+mod supremum;
 mod velocity;
 mod workspace;
 

@@ -11,6 +11,8 @@ use super::model::{Tripod, TripodError, TripodPose, TripodReach};
 
 /// Sliders of a leg with one motor may be apart by this over the distance of its rails: a pose was printed with ten digits (heuristic).
 pub(super) const TOGETHER: f64 = 1e-9;
+/// The condition on the torsion, a product of vectors of length 1, comes from some ten roundings and is zero below this.
+const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
 impl Tripod {
     /// The same robot with one motor in some legs, leg 1 first.
@@ -77,21 +79,24 @@ impl Tripod {
     /// The orientations of a robot with five degrees of freedom that point the tool's axis in a direction of the base frame, least torsion first.
     ///
     /// **Shape**: each with its torsion `s` in radians, `R = rotation(direction, s)·R0`, where `R0` is the shortest rotation that takes the axis there, opposite to it a half-turn about the normalised cross product of
-    /// the axis and the coordinate axis least along it. Two, one where they meet, or none; none too where every torsion will do. **Accuracy**: closed form.
+    /// the axis and the coordinate axis least along it. Two, one where they meet, none, or every torsion: see [`TripodTorsions`]. **Accuracy**: closed form.
     ///
     /// # Errors
     /// Not exactly one leg with one motor; a direction of no length or not finite.
     ///
     /// ```
-    /// use assur::{Tripod, nalgebra::Vector3};
+    /// use assur::{Tripod, TripodTorsions, nalgebra::Vector3};
     /// let robot = Tripod::cartesian(600.0, 720.0)?.with_one_motor([true, false, false]);
     /// let robot = Tripod { tool_axis: Vector3::repeat(1.0).normalize(), ..robot };
     /// let found = robot.pointing(&Vector3::new(0.43091815999632127, 0.43091815999632127, 0.7928550174973794))?;
+    /// let TripodTorsions::Isolated(found) = found else { unreachable!() };
     /// assert!(found.len() == 2 && (found[0].0 + 0.03239425964481102).abs() < 1e-9);
+    /// // Along the platform's axis of the leg that does not turn, a direction in that leg's plane leaves torsion free.
+    /// let along = Tripod { tool_axis: Vector3::y(), ..robot };
+    /// assert!(matches!(along.pointing(&Vector3::new(0.0, 0.8, 0.6))?, TripodTorsions::Every(_)));
     /// # Ok::<(), assur::TripodError>(())
     /// ```
-    pub fn pointing(&self, direction: &Vector3<f64>) -> Result<Vec<(f64, Rotation3<f64>)>, TripodError> {
-        direction.iter().try_for_each(|&x| moderate(|| "direction".to_owned(), x))?;
+    pub fn pointing(&self, direction: &Vector3<f64>) -> Result<TripodTorsions, TripodError> {
         let only = (0..3).filter(|&k| self.one_motor[k]).collect::<Vec<_>>();
         let &[k] = only.as_slice() else {
             return Err(TripodError::DegreesOfFreedom {
@@ -100,12 +105,46 @@ impl Tripod {
                 found: self.degrees_of_freedom(),
             });
         };
-        let Some(direction) = direction.try_normalize(0.0) else {
-            return Err(SpatialError::NotPositive { what: "length of the direction".to_owned(), value: 0.0 }.into());
-        };
+        let direction = unit("direction", direction)?;
         let leg = &self.legs[k];
         let normal = (leg.db - leg.da).cross(&leg.w).normalize();
         Ok(turned_into_plane(&self.tool_axis, &direction, &leg.v, &normal))
+    }
+}
+
+/// The torsions with which a robot of five degrees of freedom points its tool's axis in a direction, each with its orientation.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TripodTorsions {
+    /// All there are, in radians, least first: two, one where they meet, or none at all.
+    Isolated(Vec<(f64, Rotation3<f64>)>),
+    /// Every torsion serves, to rounding: the direction lies in the plane of the leg that does not turn and the tool's axis is the leg's axis on the platform, or the direction is square to that plane and the
+    /// tool's axis to the leg's. The orientation is that of torsion 0.
+    Every(Rotation3<f64>),
+}
+
+impl TripodTorsions {
+    /// `complete`, or `every_torsion`, as reports write it.
+    pub fn status(&self) -> &'static str {
+        match self {
+            Self::Isolated(_) => "complete",
+            Self::Every(_) => "every_torsion",
+        }
+    }
+}
+
+/// How a robot of five degrees of freedom points its tool in a direction at a place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TripodPointed {
+    /// Whether every torsion serves; the pose listed is then that of torsion 0.
+    pub every_torsion: bool,
+    /// The poses, least torsion first; none means that there are none.
+    pub ways: Vec<TripodPointing>,
+}
+
+impl TripodPointed {
+    /// `complete`, or `every_torsion`, as reports write it.
+    pub fn status(&self) -> &'static str {
+        if self.every_torsion { "every_torsion" } else { "complete" }
     }
 }
 
@@ -129,20 +168,27 @@ impl Tripod {
     ///
     /// # Errors
     /// As [`Tripod::pointing`] and [`Tripod::inverse`].
-    pub fn pointed(
-        &self,
-        position: &Vector3<f64>,
-        direction: &Vector3<f64>,
-    ) -> Result<Vec<TripodPointing>, TripodError> {
-        let ways = self.pointing(direction)?;
+    pub fn pointed(&self, position: &Vector3<f64>, direction: &Vector3<f64>) -> Result<TripodPointed, TripodError> {
+        let (every_torsion, ways) = match self.pointing(direction)? {
+            TripodTorsions::Isolated(ways) => (false, ways),
+            TripodTorsions::Every(rotation) => (true, vec![(0.0, rotation)]),
+        };
         let way = |(torsion, rotation): (f64, Rotation3<f64>)| {
             let pose = TripodPose { position: *position, rotation };
             let inputs = self.inverse(&pose)?;
             let (plane_angles, violations) = (self.plane_angles(&pose)?, self.violations(&pose, &inputs)?);
             Ok(TripodPointing { torsion, pose, inputs, plane_angles, violations })
         };
-        ways.into_iter().map(way).collect()
+        let ways = ways.into_iter().map(way).collect::<Result<_, TripodError>>()?;
+        Ok(TripodPointed { every_torsion, ways })
     }
+}
+
+/// A vector at length 1.
+pub(super) fn unit(what: &str, vector: &Vector3<f64>) -> Result<Vector3<f64>, SpatialError> {
+    vector.iter().try_for_each(|&x| moderate(|| what.to_owned(), x))?;
+    let no_length = || SpatialError::NotPositive { what: format!("length of the {what}"), value: 0.0 };
+    vector.try_normalize(0.0).ok_or_else(no_length)
 }
 
 /// The shortest rotation that takes one direction to another, both of length 1; between opposite ones a half-turn about a fixed axis square to the first.
@@ -166,18 +212,28 @@ pub(super) fn turned_into_plane(
     direction: &Vector3<f64>,
     kept: &Vector3<f64>,
     normal: &Vector3<f64>,
-) -> Vec<(f64, Rotation3<f64>)> {
+) -> TripodTorsions {
     let shortest = shortest_turn(axis, direction);
     // normal · R kept = a + b cos s + c sin s.
     let there = shortest * kept;
     let a = normal.dot(direction) * direction.dot(&there);
     let (b, c) = (normal.dot(&there) - a, normal.dot(&direction.cross(&there)));
-    let mut found: Vec<(f64, Rotation3<f64>)> = circle_equation(b, c, -a)
+    let amplitude = b.hypot(c);
+    if amplitude <= ROUNDING {
+        return if a.abs() <= ROUNDING {
+            TripodTorsions::Every(shortest)
+        } else {
+            TripodTorsions::Isolated(Vec::new())
+        };
+    }
+    // Beyond by rounding alone they meet.
+    let level = if a.abs() <= amplitude + ROUNDING { a.clamp(-amplitude, amplitude) } else { a };
+    let mut found: Vec<(f64, Rotation3<f64>)> = circle_equation(b, c, -level)
         .into_iter()
         .map(|torsion| (torsion, Rotation3::new(direction * torsion) * shortest))
         .collect();
     found.sort_by(|p, q| p.0.abs().total_cmp(&q.0.abs()));
-    found
+    TripodTorsions::Isolated(found)
 }
 
 /// Angles in `(-pi, pi]` with `b cos s + c sin s = k`: two, one where they meet, or none.

@@ -5,8 +5,9 @@
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
+use super::super::error::SpatialError;
 use super::cartesian::{CartesianRobot, CartesianSingular};
-use super::fewer::{circle_equation, turned_into_plane};
+use super::fewer::{TripodTorsions, circle_equation, turned_into_plane, unit};
 use super::model::TripodPose;
 use super::orientation::PlaneConditions;
 use crate::solve::Account;
@@ -24,13 +25,16 @@ impl CartesianRobot {
 
     /// The orientations of the robot with five degrees of freedom that point an axis of the platform in a direction, least torsion first: `r12 = 0`.
     ///
-    /// **Shape**: each with its torsion in radians, `R = rotation(direction, torsion)·R0`, where `R0` is the shortest rotation that takes the axis there. Two, or none; none too
-    /// where every torsion or no direction will do.
-    pub fn five_dof_orientations(&self, axis: &Vector3<f64>, direction: &Vector3<f64>) -> Vec<(f64, Rotation3<f64>)> {
-        let (Some(axis), Some(direction)) = (axis.try_normalize(0.0), direction.try_normalize(0.0)) else {
-            return Vec::new();
-        };
-        turned_into_plane(&axis, &direction, &Vector3::y(), &Vector3::x())
+    /// **Shape**: each with its torsion in radians, `R = rotation(direction, torsion)·R0`, where `R0` is the shortest rotation that takes the axis there, as [`crate::Tripod::pointing`].
+    ///
+    /// # Errors
+    /// An axis or a direction of no length or not finite.
+    pub fn five_dof_orientations(
+        &self,
+        axis: &Vector3<f64>,
+        direction: &Vector3<f64>,
+    ) -> Result<TripodTorsions, SpatialError> {
+        Ok(turned_into_plane(&unit("axis", axis)?, &unit("direction", direction)?, &Vector3::y(), &Vector3::x()))
     }
 
     /// The pose of the robot with four degrees of freedom, for `rho1, rho3, rho5, rho6`: legs 1 and 2 do not turn, the platform turns about `y` only.

@@ -31,7 +31,7 @@ mod velocity;
 
 pub use cartesian::{CartesianRobot, CartesianSingular};
 pub use determinant::{DeterminantPoint, TripodDesign};
-pub use fewer::TripodPointing;
+pub use fewer::{TripodPointed, TripodPointing, TripodTorsions};
 pub use forward::{Counted, TripodAssemblies, TripodAssembly, TripodStatus};
 pub use members::{Hexapteron, Quadrupteron, Tripteron};
 pub use model::{Tripod, TripodError, TripodLeg, TripodPose, TripodReach};

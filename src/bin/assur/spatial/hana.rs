@@ -405,6 +405,8 @@ fn hana_capability(
         Some(best) => {
             let how = if best.attained { "had" } else { "approached from below" };
             line(&mut text, format_args!("largest {}, {how} at ({})", angle(best.zeta), numbers(&best.at)));
+            let above = angle_unit.from_rad(best.at_most - best.zeta);
+            line(&mut text, format_args!("  shown: no place has more than {above:.1e} {} above", angle_unit.name()));
         }
         None => line(&mut text, format_args!("the workspace of phi = 0 is empty")),
     }

@@ -30,7 +30,7 @@ pub(crate) enum TripodCommand {
         /// The platform's pose.
         #[arg(long, value_name = "X,Y,Z,A,B,C", value_delimiter = ',', required = true, allow_hyphen_values = true)]
         pose: Vec<f64>,
-        /// The direction of the tool's axis, for a robot with five degrees of freedom: both orientations that have it.
+        /// The direction of the tool's axis, for a robot with five degrees of freedom: every orientation that has it.
         #[arg(long, value_name = "X,Y,Z", value_delimiter = ',', allow_hyphen_values = true)]
         direction: Vec<f64>,
         #[command(flatten)]
@@ -240,7 +240,7 @@ fn pointing(file: &Path, at: &[f64], direction: &[f64], shown: &Shown) -> Result
     let found = robot.pointed(&position, &direction).map_err(failed)?;
     let angle = |value: f64| format!("{} {}", digits(angle_unit.from_rad(value), POSE_DIGITS), angle_unit.name());
     let draw = || {
-        let posed = found.iter().map(|way| {
+        let posed = found.ways.iter().map(|way| {
             let caption = format!("torsion {}", angle(way.torsion));
             PosedRobot { caption, pose: way.pose, inputs: way.inputs }
         });
@@ -251,14 +251,22 @@ fn pointing(file: &Path, at: &[f64], direction: &[f64], shown: &Shown) -> Result
         return output::print(&tripod_pointing_json(&position, &direction, &found));
     }
     let mut text = titled(&robot.name, "three-legged robot");
-    for way in &found {
+    for way in &found.ways {
         let turn = way.pose.rotation.scaled_axis().map(|x| angle_unit.from_rad(x));
         line(&mut text, format_args!("{STRONG}torsion {}{STRONG:#}", angle(way.torsion)));
         line(&mut text, format_args!("rotation vector ({})  {}", angle_unit.name(), numbers(turn.as_slice())));
         positions(&mut text, &robot, &way.inputs, &way.plane_angles, angle_unit);
         violated(&mut text, &way.violations, angle_unit);
     }
-    line(&mut text, format_args!("{STRONG}{} orientations point the tool there{STRONG:#}", found.len()));
+    let count = match (found.every_torsion, found.ways.len()) {
+        (true, _) => {
+            "every torsion points the tool there: a curve of orientations, of which torsion 0 is shown".to_owned()
+        }
+        (false, 0) => "no orientation points the tool there".to_owned(),
+        (false, 1) => "one orientation points the tool there: two have met".to_owned(),
+        (false, count) => format!("{count} orientations point the tool there"),
+    };
+    line(&mut text, format_args!("{STRONG}{count}{STRONG:#}"));
     output::print(&text)
 }
 
