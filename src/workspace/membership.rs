@@ -236,7 +236,7 @@ impl Reach {
     ///
     /// **Accuracy**: a few roundings of the mechanism's largest length; for legs with a range of joint 3 a peak nearer than 1e-5 rad to where the shape of an edge changes
     /// may be cut by that share of a pivot's way. Outside, the margin is measured to the nearest
-    /// edges in the best orientation. **Cost**: `inside` alone ([`Reach::contains`]) below a microsecond; the margin some microseconds for rings, some tens for sliders with links and sectors, some milliseconds for legs with a range of joint 3.
+    /// edges in the best orientation. **Cost**: `inside` alone ([`Reach::contains`]) below a microsecond; the margin some microseconds for rings, some tens for sliders with links and sectors, tens of milliseconds, and up to a second, for legs with a range of joint 3.
     ///
     /// ```
     /// use assur::{Leg, Manipulator, workspace::{WorkspaceKind, WorkspaceModes}};
@@ -294,35 +294,63 @@ impl Reach {
         let mut cuts: Vec<f64> = events.iter().map(|phi| (phi - range.from).rem_euclid(TAU)).collect();
         cuts.retain(|&cut| cut < width);
         cuts.extend([0.0, width]);
+        /// Events nearer than this (radians; some roundings of an angle) are one.
+        const SEAM: f64 = 1e-14;
         cuts.sort_by(f64::total_cmp);
-        cuts.dedup();
-        let slack = |cut: f64| {
+        cuts.dedup_by(|later, earlier| *later - *earlier <= SEAM);
+        let moving = self.legs[legs.clone()].iter().any(|leg| leg.platform_sector.is_some());
+        let slack_of = |cut: f64, which: &dyn Fn(&LegReach) -> bool| {
             let turn = direction(range.from + cut);
-            let slacks = each().map(|(leg, fixed)| leg.slack(at, turn, fixed, self.size));
+            let slacks = each().filter(|(leg, _)| which(leg)).map(|(leg, fixed)| leg.slack(at, turn, fixed, self.size));
             slacks.min_by(|a, b| a.value.total_cmp(&b.value)).unwrap_or(none)
         };
+        let slack = |cut: f64| slack_of(cut, &|_| true);
+        // The slack of legs whose edges stand changes no faster than a pivot moves; corners of an edge that moves with the platform have no such bound.
+        let stands = |leg: &LegReach| leg.platform_sector.is_none();
+        let speed = each().filter(|(leg, _)| stands(leg)).map(|(leg, _)| leg.b.norm()).fold(0.0, f64::max);
         let better = |a: &Slack, b: &Slack| if greatest { a.value > b.value } else { a.value < b.value };
-        let values: Vec<Slack> = cuts.iter().map(|&cut| slack(cut)).collect();
-        let mut best = values.iter().copied().reduce(|best, next| if better(&next, &best) { next } else { best });
-        let mut best = best.take().unwrap_or(none);
-        let moving = self.legs[legs.clone()].iter().any(|leg| leg.platform_sector.is_some());
-        // The slack changes no faster than a pivot moves; corners of an edge that moves with the platform have no such bound.
-        let speed = self.legs[legs.clone()].iter().map(|leg| leg.b.norm()).fold(0.0, f64::max);
-        for (pair, ends) in cuts.windows(2).zip(values.windows(2)) {
-            let (a, b) = (ends[0].value, ends[1].value);
+        let steady: Vec<Slack> = cuts.iter().map(|&cut| slack_of(cut, &stands)).collect();
+        // The best that legs whose edges stand leave in an interval; the most promising first.
+        let bound = |k: usize| {
+            let (room, middle) = (0.5 * speed * (cuts[k + 1] - cuts[k]), 0.5 * (steady[k].value + steady[k + 1].value));
+            if greatest { middle + room } else { middle - room }
+        };
+        let mut order: Vec<(f64, usize)> = (0..cuts.len().saturating_sub(1)).map(|k| (bound(k), k)).collect();
+        if greatest {
+            order.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        }
+        let mut values: Vec<Option<Slack>> =
+            if moving { vec![None; cuts.len()] } else { steady.iter().copied().map(Some).collect() };
+        if cuts.len() == 1 {
+            return slack(cuts[0]);
+        }
+        let mut best = Slack { value: if greatest { f64::NEG_INFINITY } else { f64::INFINITY }, binding: None };
+        if !moving {
+            best = steady
+                .iter()
+                .copied()
+                .reduce(|best, next| if better(&next, &best) { next } else { best })
+                .unwrap_or(best);
+        }
+        for (bound, k) in order {
+            if (greatest || !moving) && !better(&Slack { value: bound, binding: None }, &best) {
+                continue;
+            }
+            let ends = [k, k + 1].map(|k| *values[k].get_or_insert_with(|| slack(cuts[k])));
+            for end in &ends {
+                if better(end, &best) {
+                    best = *end;
+                }
+            }
+            // Inside, the least value is at an end; outside, the distance to the nearest piece may pass from one to another.
+            let inside = |slack: &Slack| slack.value >= 0.0;
+            if !greatest && ends.iter().all(inside) && (!moving || inside(&slack(0.5 * (cuts[k] + cuts[k + 1])))) {
+                continue;
+            }
             let found = if moving {
-                moving_peak(&slack, [pair[0], pair[1]], [ends[0], ends[1]], greatest)
+                moving_peak(&slack, [cuts[k], cuts[k + 1]], ends, greatest)
             } else {
-                // Inside, the least value is at an end; outside, the distance to the nearest piece may pass from one to another.
-                if !greatest && a >= 0.0 && b >= 0.0 {
-                    continue;
-                }
-                let room = 0.5 * speed * (pair[1] - pair[0]);
-                let bound = if greatest { 0.5 * (a + b) + room } else { 0.5 * (a + b) - room };
-                if !better(&Slack { value: bound, binding: None }, &best) {
-                    continue;
-                }
-                section_search(&slack, pair[0], pair[1], greatest)
+                section_search(&slack, cuts[k], cuts[k + 1], greatest)
             };
             if better(&found, &best) {
                 best = found;

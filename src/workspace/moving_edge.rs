@@ -28,13 +28,30 @@ use crate::plane::{Carrier, Meeting, direction, principal, product};
 
 type Point = Vector2<f64>;
 
+/// A corner that a leg misses by less than this share of the size counts (heuristic, generous: where working modes merge a joint moves as the root of a rounding; one
+/// counted in vain costs time only).
+const NEAR: f64 = 1e-7;
+
 impl LegReach {
     /// Adds these orientations for a place of the reference point, radians in [-pi, pi): more than needed, as corners count whether the leg is in them or not.
     pub(super) fn moving_edge_events(&self, at: Point, size: f64, out: &mut Vec<f64>) {
         let same = SAME * size;
         let last = |limit: &&Limit| limit.cause.joint() == Some(2);
-        let (standing, turning): (Vec<&Limit>, Vec<&Limit>) = self.limits.iter().partition(|limit| !last(limit));
+        // Both modes have most surfaces in common.
+        let mut limits: Vec<&Limit> = Vec::new();
         for limit in &self.limits {
+            if !limits.iter().any(|known| known.dyad == limit.dyad) {
+                limits.push(limit);
+            }
+        }
+        let (standing, turning): (Vec<&Limit>, Vec<&Limit>) = limits.iter().copied().partition(|limit| !last(limit));
+        // A corner counts if joints 1 and 2, or 2 and 3, allow the platform pivot there.
+        let near = NEAR * size;
+        let standing_part = Self { platform_sector: None, ring: None, ..self.clone() };
+        let turning_part = Self { base_sector: None, ring: None, ..self.clone() };
+        let stands = |corner: &Point| standing_part.allows(*corner, Point::x(), near);
+        let turns = |corner: &Point| turning_part.allows(self.a + corner, Point::x(), near);
+        for limit in limits {
             out.extend(aligned(limit, at).map(principal));
         }
         let away = at - self.a;
@@ -46,7 +63,7 @@ impl LegReach {
         let carriers: Vec<Carrier> = standing.iter().map(|limit| base_carrier(limit)).collect();
         for (k, one) in carriers.iter().enumerate() {
             for other in &carriers[..k] {
-                for corner in meet(one, other) {
+                for corner in meet(one, other).into_iter().filter(stands) {
                     in_line(self.b, at - corner, out);
                     for carrier in [one, other] {
                         out.extend(on_line(at, self.b, corner, normal(carrier, corner)));
@@ -75,7 +92,7 @@ impl LegReach {
         let all: Vec<Carrier> = seen.iter().copied().chain(about).collect();
         for (k, one) in seen.iter().enumerate() {
             for other in &all[k + 1..] {
-                for corner in meet(one, other) {
+                for corner in meet(one, other).into_iter().filter(turns) {
                     in_line(self.b - corner, away, out);
                     for carrier in [one, other] {
                         turned_back(on_line(self.b, away, corner, normal(carrier, corner)), out);
