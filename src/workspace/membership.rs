@@ -236,7 +236,7 @@ impl Reach {
     ///
     /// **Accuracy**: a few roundings of the mechanism's largest length; for legs with a range of joint 3 a peak nearer than 1e-5 rad to where the shape of an edge changes
     /// may be cut by that share of a pivot's way. Outside, the margin is measured to the nearest
-    /// edges in the best orientation. **Cost**: `inside` alone ([`Reach::contains`]) below a microsecond; the margin some microseconds for rings, some tens for sliders with links and sectors, some milliseconds for legs with a range of joint 3.
+    /// edges in the best orientation. **Cost**: `inside` alone ([`Reach::contains`]) below a microsecond; the margin some microseconds for rings, some tens for sliders with links and sectors, tens of milliseconds, and up to a second, for legs with a range of joint 3.
     ///
     /// ```
     /// use assur::{Leg, Manipulator, workspace::{WorkspaceKind, WorkspaceModes}};

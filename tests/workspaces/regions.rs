@@ -353,7 +353,7 @@ fn on_a_grid(number: u64) -> Case {
 fn workspaces_of_regular_similar_and_collinear_manipulators_are_decided() {
     let (mut asked, mut full) = (0, 0);
     let mut wrong: Vec<String> = Vec::new();
-    for number in 0..60 * scale() {
+    for number in 0..40 * scale() {
         let case = on_a_grid(number);
         let oracle = Oracle::of(&case.robot, case.modes);
         let mut r = Random::new(number);
