@@ -41,7 +41,7 @@ fn figures() -> Vec<Figure> {
         figure("fig-11-right", "table1-2a", vec![WorkspaceKind::Maximal], "5699"),
         figure("fig-12-left", "table1-3a", vec![WorkspaceKind::Maximal], "14016"),
         figure("fig-12-right", "table1-4a", vec![WorkspaceKind::Maximal], "1983"),
-        figure("fig-13", "table1-3b", with_maximal(&[0.0, 90.0, 180.0, 270.0]), "1500-15000 the maximal one"),
+        figure("fig-13", "table1-3b", with_maximal(&[180.0, 210.0, 240.0, 270.0, 300.0]), "1500-15000 the maximal one"),
         // Its claim of two assemblies does not hold: the separating arcs do not close a part off.
         figure("fig-14", "table1-1a", vec![WorkspaceKind::Maximal], "4216"),
         figure("fig-16", "table1-1c", [150.0, 180.0, 210.0, 240.0, 300.0].map(inclusive).to_vec(), "1000-2000 each"),

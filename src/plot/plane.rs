@@ -59,8 +59,10 @@ impl Chart {
             .add(label(subtitle, LEFT, 50.0, 12.5).set("fill", QUIET))
             .add(inside.set("clip-path", "url(#plane)"))
             .add(frame().set("fill", "none").set("stroke", INK));
+        // Both axes have one scale, so one step as well.
+        let step = tick_step(0.8 * (self.window.high - self.window.low).max());
         for axis in 0..2 {
-            for tick in ticks(self.window.low[axis], self.window.high[axis]) {
+            for tick in multiples(step, self.window.low[axis], self.window.high[axis]) {
                 let at = if axis == 0 {
                     Vector2::new(tick, self.window.low.y)
                 } else {
@@ -89,6 +91,11 @@ impl Chart {
         length * self.scale
     }
 
+    /// Whether a place is in the picture.
+    pub(super) fn shows(&self, p: Vector2<f64>) -> bool {
+        (0..2).all(|axis| self.window.low[axis] <= p[axis] && p[axis] <= self.window.high[axis])
+    }
+
     pub(super) fn middle(&self) -> Vector2<f64> {
         (self.window.low + self.window.high) / 2.0
     }
@@ -104,14 +111,27 @@ impl Chart {
 
 /// Round numbers in a range, four to nine of them.
 pub(super) fn ticks(low: f64, high: f64) -> Vec<f64> {
-    let decade = 10_f64.powf(((high - low) / 4.0).log10().floor());
-    let step = [5.0, 2.0, 1.0].map(|s| s * decade).into_iter().find(|s| *s <= (high - low) / 4.0).unwrap_or(decade);
+    multiples(tick_step(high - low), low, high)
+}
+
+/// A round step that a range holds four to nine of.
+fn tick_step(extent: f64) -> f64 {
+    let decade = 10_f64.powf((extent / 4.0).log10().floor());
+    [5.0, 2.0, 1.0].map(|s| s * decade).into_iter().find(|s| *s <= extent / 4.0).unwrap_or(decade)
+}
+
+fn multiples(step: f64, low: f64, high: f64) -> Vec<f64> {
     let first = (low / step).ceil() as i64;
-    (first..first + 12).map(|k| k as f64 * step).take_while(|tick| *tick <= high).collect()
+    (first..first + 14).map(|k| k as f64 * step).take_while(|tick| *tick <= high).collect()
 }
 
 pub(super) fn label(content: &str, x: f64, y: f64, size: f64) -> Text {
     Text::new(content).set("x", x).set("y", y).set("font-size", size).set("fill", INK)
+}
+
+/// A label that stays readable on lines: with a white edge.
+pub(super) fn on_lines(text: Text) -> Text {
+    text.set("stroke", "#ffffff").set("stroke-width", 3).set("stroke-linejoin", "round").set("paint-order", "stroke")
 }
 
 /// Where a manipulator is singular for a fixed orientation: each mode's curve of type 2 in its colour, the legs' curves of type 1 grey, `legs` their

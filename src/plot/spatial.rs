@@ -1,8 +1,10 @@
 //! Pictures of the two spatial robots' answers: workspaces, maps of capability and of tilt.
 
+use std::fmt::Write;
+
 use nalgebra::Vector2;
 use svg::Document;
-use svg::node::element::{Group, Path, Polyline, Rectangle};
+use svg::node::element::{ClipPath, Definitions, Group, Path, Rectangle};
 
 use super::plane::{COLOURS, Chart, TOP, colour, label};
 use super::scene::number;
@@ -36,40 +38,68 @@ pub fn draw_hana(title: &str, regions: &[(String, &ArcRegion)], map: Option<&Cap
             (map.window[2] - map.window[0]) / map.size[0] as f64,
             (map.window[3] - map.window[1]) / map.size[1] as f64,
         ];
-        for (index, value) in map.values.iter().enumerate() {
-            let Some(value) = value else { continue };
-            let [py, pz] = map.at(index % map.size[0], index / map.size[0]);
+        let mut tiles = Group::new();
+        for index in 0..map.values.len() {
+            let place = [index % map.size[0], index / map.size[0]];
+            let Some(value) = within_or_beside(map, place) else { continue };
+            let [py, pz] = map.at(place[0], place[1]);
             let corner = Vector2::new(py - 0.5 * cell[0], pz + 0.5 * cell[1]);
             let opposite = Vector2::new(py + 0.5 * cell[0], pz - 0.5 * cell[1]);
-            inside = inside.add(tile(&chart, corner, opposite, if highest > 0.0 { value / highest } else { 0.0 }));
+            tiles = tiles.add(tile(&chart, corner, opposite, if highest > 0.0 { value / highest } else { 0.0 }));
         }
+        // The exact boundary cuts the tiles.
+        let inner: String = regions.iter().map(|(_, region)| outline(&chart, region)).collect();
+        if !inner.is_empty() {
+            let cut = Path::new().set("d", inner).set("clip-rule", "evenodd");
+            inside = inside.add(Definitions::new().add(ClipPath::new().set("id", "region").add(cut)));
+            tiles = tiles.set("clip-path", "url(#region)");
+        }
+        inside = inside.add(tiles);
         legend = scale(legend, x, y, "rotational capability ζ", highest);
         y += 150.0;
     }
     for (k, (name, region)) in regions.iter().enumerate() {
         let colour = COLOURS[k % COLOURS.len()];
-        for (_, arcs) in &region.loops {
-            let points: Vec<String> = arcs
-                .iter()
-                .flat_map(|arc| arc.points(ARC_POINTS))
-                .map(|[py, pz]| {
-                    let p = Vector2::new(py, pz);
-                    format!("{:.2},{:.2}", chart.x(p), chart.y(p))
-                })
-                .collect();
-            let line = Polyline::new().set("points", points.join(" ")).set("stroke", colour).set("stroke-width", 2);
-            inside = inside.add(if map.is_some() {
-                line.set("fill", "none")
-            } else {
-                line.set("fill", colour).set("fill-opacity", 0.15)
-            });
-        }
+        let line = Path::new().set("d", outline(&chart, region)).set("stroke", colour).set("stroke-width", 2);
+        let line = line.set("stroke-linejoin", "round").set("fill-rule", "evenodd");
+        inside = inside.add(if map.is_some() {
+            line.set("fill", "none")
+        } else {
+            line.set("fill", colour).set("fill-opacity", 0.15)
+        });
         let sample = Path::new().set("d", format!("M{x} {}h22", y - 4.0)).set("stroke", colour).set("stroke-width", 2);
         legend = legend.add(sample).add(label(&format!("{name}: area {}", number(region.area)), x + 28.0, y, 11.5));
         y += 18.0;
     }
+    legend = legend.add(label("lengths in the model's unit", x, y + 6.0, 10.5).set("fill", QUIET));
     let subtitle = "HANA  ·  places of the platform's centre in the plane x = 0";
     chart.document(if title.is_empty() { "HANA" } else { title }, subtitle, inside, legend)
+}
+
+/// A region's loops as the data of one path.
+fn outline(chart: &Chart, region: &ArcRegion) -> String {
+    let mut data = String::new();
+    for (_, arcs) in &region.loops {
+        let points = arcs.iter().flat_map(|arc| arc.points(ARC_POINTS));
+        for (k, [py, pz]) in points.enumerate() {
+            let p = Vector2::new(py, pz);
+            // Writing to a String cannot fail.
+            let _ = write!(data, "{}{:.2} {:.2}", if k == 0 { 'M' } else { 'L' }, chart.x(p), chart.y(p));
+        }
+        data.push('Z');
+    }
+    data
+}
+
+/// A cell's value; where its middle is outside, that of a neighbour, for the part of it that the boundary leaves in.
+fn within_or_beside(map: &CapabilityMap, [column, row]: [usize; 2]) -> Option<f64> {
+    let value = |column: usize, row: usize| {
+        let inside = column < map.size[0] && row < map.size[1];
+        inside.then(|| map.values[row * map.size[0] + column]).flatten()
+    };
+    // Nearest first: the four that share a side, then the corners. Beyond the first row the index wraps to one that is outside.
+    const AROUND: [[isize; 2]; 9] = [[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1], [1, 1], [1, -1], [-1, 1], [-1, -1]];
+    AROUND.iter().find_map(|[right, up]| value(column.wrapping_add_signed(*right), row.wrapping_add_signed(*up)))
 }
 
 fn tile(chart: &Chart, corner: Vector2<f64>, opposite: Vector2<f64>, part: f64) -> Rectangle {
@@ -84,13 +114,13 @@ fn tile(chart: &Chart, corner: Vector2<f64>, opposite: Vector2<f64>, part: f64) 
 /// A scale of colours from 0 to an angle in radians.
 fn scale(legend: Group, x: f64, y: f64, name: &str, highest: f64) -> Group {
     let mut legend = legend.add(label(name, x, y, 12.0));
-    for step in 0..=10 {
-        let part = f64::from(step) / 10.0;
+    for step in 0..=50 {
+        let part = f64::from(step) / 50.0;
         let bar = Rectangle::new()
             .set("x", x)
-            .set("y", y + 8.0 + 100.0 * (1.0 - part))
+            .set("y", y + 8.0 + 108.8 * (1.0 - part))
             .set("width", 14)
-            .set("height", 11)
+            .set("height", 2.5)
             .set("fill", colour(part));
         legend = legend.add(bar);
     }

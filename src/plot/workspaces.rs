@@ -6,7 +6,7 @@ use std::fmt::Write;
 use nalgebra::Vector2;
 use svg::node::element::{Circle, Group, Line, Path};
 
-use super::plane::{COLOURS, Chart, TOP, label};
+use super::plane::{COLOURS, Chart, TOP, label, on_lines};
 use super::scene::{heading, number};
 use super::symbols::{INK, QUIET};
 use crate::manipulator::{JointKind, Manipulator, PlaneWindow};
@@ -20,6 +20,8 @@ const ROOM: f64 = 0.08;
 const FAR: f64 = 0.8;
 /// The legs' own regions.
 const LEG_STROKES: [(&str, &str); 3] = [("#8a6d3b", "7 4"), ("#5b7f95", "2.5 3"), ("#7d6b91", "8 3 2 3")];
+/// Width of a curve without area.
+const ALONE: f64 = 4.0;
 /// The workspace in a picture of one.
 const FILL: &str = "#4a90c2";
 
@@ -124,6 +126,21 @@ pub fn draw_workspaces(robot: &Manipulator, layers: &[WorkspaceLayer], legs: &[R
                 legend = legend.add(sample(x, y, kind.colour(), 2.2)).add(label(kind.name(), x + 28.0, y, 11.5));
                 y += 18.0;
             }
+            let points = region.isolated.iter().any(|part| matches!(part, Isolated::Point { .. }));
+            let curve = region.isolated.iter().find_map(|part| match part {
+                Isolated::Curve(arc) => Some(Stroke::of(arc)),
+                Isolated::Point { .. } => None,
+            });
+            if let Some(kind) = curve {
+                let line = sample(x, y, kind.colour(), ALONE);
+                legend = legend.add(line).add(label("curve without area", x + 28.0, y, 11.5));
+                y += 18.0;
+            }
+            if points {
+                let dot = point(x + 11.0, y - 4.0, colour);
+                legend = legend.add(dot).add(label("single point", x + 28.0, y, 11.5));
+                y += 18.0;
+            }
             for line in measures(region) {
                 legend = legend.add(label(&line, x, y, 11.5).set("fill", QUIET));
                 y += 16.0;
@@ -137,12 +154,11 @@ pub fn draw_workspaces(robot: &Manipulator, layers: &[WorkspaceLayer], legs: &[R
         for part in &region.isolated {
             strokes = strokes.add(match part {
                 Isolated::Point { at, .. } => {
-                    let dot = Circle::new().set("cx", chart.x((*at).into())).set("cy", chart.y((*at).into()));
-                    Group::new().add(dot.set("r", 4.2).set("fill", colour).set("stroke", INK))
+                    Group::new().add(point(chart.x((*at).into()), chart.y((*at).into()), colour))
                 }
                 Isolated::Curve(arc) => {
                     let line = self::outline(&chart, std::slice::from_ref(arc), false);
-                    Group::new().add(stroke(line, if alone { Stroke::of(arc).colour() } else { colour }, 3.2))
+                    Group::new().add(stroke(line, if alone { Stroke::of(arc).colour() } else { colour }, ALONE))
                 }
             });
         }
@@ -172,14 +188,22 @@ pub fn draw_workspaces(robot: &Manipulator, layers: &[WorkspaceLayer], legs: &[R
         if !outline.is_empty() {
             dashed = dashed.add(line(outline));
         }
+        let seen = |arc: &BoundaryArc| arc.points(CURVE_POINTS).into_iter().any(|p| chart.shows(p.into()));
+        let nothing = region.loops.is_empty() && region.isolated.is_empty();
+        let remark = match region.loops.iter().flat_map(|one| &one.arcs).any(seen) {
+            true => "",
+            false if nothing => ": empty",
+            false => ": out of view",
+        };
         legend = legend.add(line(format!("M{x} {:.2}h22", y - 4.0))).add(label(
-            &format!("leg {} alone", leg + 1),
+            &format!("leg {} alone{remark}", leg + 1),
             x + 28.0,
             y,
             11.5,
         ));
         y += 18.0;
     }
+    legend = legend.add(label("lengths in the model's unit", x, y + 6.0, 10.5).set("fill", QUIET));
     let (title, family) = heading(robot);
     let subtitle = match layers {
         [layer] => format!("{family}{}", question(layer.workspace)),
@@ -206,6 +230,9 @@ fn question(workspace: &Workspace) -> String {
 }
 
 fn area(region: &Region) -> String {
+    if !region.unclosed.is_empty() {
+        return "undecided: open loops".to_owned();
+    }
     match (region.loops.is_empty(), region.isolated.is_empty()) {
         (false, _) => format!("area {}", number(region.area)),
         (true, false) => "no area".to_owned(),
@@ -270,7 +297,7 @@ fn bases(robot: &Manipulator, chart: &Chart) -> Group {
         let dot = Circle::new().set("cx", format!("{x:.2}")).set("cy", format!("{y:.2}")).set("r", 3.4);
         out = out
             .add(dot.set("fill", "#ffffff").set("stroke", INK).set("stroke-width", 1.4))
-            .add(label(&number.to_string(), x + 6.0, y + 13.0, 11.0).set("fill", QUIET));
+            .add(on_lines(label(&number.to_string(), x + 6.0, y + 13.0, 11.0).set("fill", QUIET)));
     }
     out
 }
@@ -283,6 +310,12 @@ fn stroke(data: String, colour: &str, width: f64) -> Path {
         .set("stroke-width", width)
         .set("stroke-linejoin", "round")
         .set("stroke-linecap", "round")
+}
+
+/// An isolated point.
+fn point(x: f64, y: f64, colour: &str) -> Circle {
+    let dot = Circle::new().set("cx", format!("{x:.2}")).set("cy", format!("{y:.2}")).set("r", 4.2);
+    dot.set("fill", colour.to_owned()).set("stroke", INK)
 }
 
 fn sample(x: f64, y: f64, colour: &str, width: f64) -> Path {

@@ -12,6 +12,7 @@ mod gradients;
 mod membership;
 mod models;
 mod oracle;
+mod quadrature;
 #[path = "../random/mod.rs"]
 mod random;
 mod reachable;

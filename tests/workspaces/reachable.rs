@@ -89,7 +89,7 @@ fn cases(data: &Value) -> Vec<(String, Manipulator, WorkspaceKind, &Value)> {
         }
         let name = case["manipulator"].as_str().expect("a name");
         let label = format!("{name} {} {}", kind.name(), case["interval_deg"]);
-        Some((label, golden_manipulator(&data, name), kind, case))
+        Some((label, golden_manipulator(data, name), kind, case))
     });
     found.collect()
 }

@@ -173,8 +173,9 @@ pub(crate) fn workspace(asked: &WorkspaceArgs) -> Result<(), Failure> {
     let members: Vec<([f64; 2], Membership)> =
         points.iter().map(|&at| (at, reach.membership(&kind, at.into()))).collect();
 
+    let one = if assembly.is_some() { " of one assembly" } else { "" };
     let draw = || {
-        let own = WorkspaceLayer { name: kind_name(&workspace.kind, unit), workspace: &workspace };
+        let own = WorkspaceLayer { name: format!("{}{one}", kind_name(&workspace.kind, unit)), workspace: &workspace };
         let layers: Vec<WorkspaceLayer> = std::iter::once(own)
             .chain(overlays.iter().map(|(name, workspace)| WorkspaceLayer { name: name.clone(), workspace }))
             .collect();
@@ -223,7 +224,6 @@ pub(crate) fn workspace(asked: &WorkspaceArgs) -> Result<(), Failure> {
     }
     let mut text = String::new();
     heading(&mut text, &title(&model));
-    let one = if assembly.is_some() { " of one assembly" } else { "" };
     let what = format!("{} workspace{one}", kind_name(&workspace.kind, unit));
     line(&mut text, format_args!("{}, {what}, modes {modes}", robot.family()));
     measures(&mut text, &workspace);
@@ -331,7 +331,7 @@ fn optimise(
 
 /// What a kind is called for people, angles in the file's unit.
 fn kind_name(kind: &WorkspaceKind, unit: AngleUnit) -> String {
-    let sign = if unit == AngleUnit::Deg { "°" } else { "" };
+    let sign = if unit == AngleUnit::Deg { "°" } else { " rad" };
     let angle = |angle: f64| format!("{}{sign}", digits(unit.from_rad(angle), SIDE_DIGITS));
     match kind {
         WorkspaceKind::Constant { phi } => format!("constant, φ = {}", angle(*phi)),

@@ -379,7 +379,7 @@ fn hana_capability(
     let title = if robot.name.is_empty() { "HANA" } else { &robot.name };
     let draw = || {
         if strokes.is_empty() {
-            return assur::plot::draw_hana(&robot.name, &[("phi = 0".to_owned(), region)], map.as_ref());
+            return assur::plot::draw_hana(&robot.name, &[("φ = 0".to_owned(), region)], map.as_ref());
         }
         let points = curve.iter().map(|&(half, zeta)| (half, zeta.map(f64::to_degrees))).collect();
         let axes = ["half length of the strokes", "largest capability ζ (deg)"];
