@@ -199,6 +199,14 @@ impl<'a> Ceiling<'a> {
         let most = height(1.0).max(height(c) + r * s);
         let beyond = span >= base && c * span <= base;
         let most = if beyond { most.max(((span - base) * (span + base)).sqrt()) } else { most };
+        // Both sides at one place: beyond the largest `N + r sin t`, what that exceeds `N(y, phi)` by grows with `|y|`, as `(l + r) (R - r cos phi) >= l R` there.
+        let near_span = ((robot.link - near) * (robot.link + near)).max(0.0).sqrt() + r;
+        if near_span >= base && c * near_span <= base {
+            let near_most = ((near_span - base) * (near_span + base) - square).max(0.0).sqrt();
+            if near_most - tilted.sqrt() + r * s > high - low + length {
+                return false;
+            }
+        }
         let highest = high - most;
         let across = y.map(|y| (y + base - r).abs());
         let third = |across: f64, margin: f64| (robot.third_link - across) * (robot.third_link + across) + margin;
