@@ -11,9 +11,10 @@
 //! | two limits of one leg | the same | a circle about the remaining joint, or a line ([`edges`]) |
 //! | one limit at the reference point's own pivot | | its own circle or line |
 //!
-//! [`curves`] lists them with all places where anything about them changes, in closed form or as real modes of triads; [`outline`] keeps what bounds. The derivation `fold_rule` has the rule.
+//! [`curves`] lists them with all places where anything about them changes, in closed form or as real modes of triads; [`outline`] keeps what bounds, [`closing`] makes loops of it. The derivation `fold_rule` has the rule.
 
 mod arc;
+mod closing;
 mod coupled;
 mod crossings;
 mod curves;
