@@ -54,6 +54,23 @@ pub struct ArcIntegrals {
 }
 
 impl BoundaryArc {
+    /// The piece carried along with the base frame.
+    pub(super) fn moved(&self, by: Vector2<f64>) -> Self {
+        let carried = |p: [f64; 2]| [p[0] + by.x, p[1] + by.y];
+        let curve = match &self.curve {
+            ArcCurve::Line => ArcCurve::Line,
+            ArcCurve::Circle { center, radius, start_angle, end_angle } => ArcCurve::Circle {
+                center: carried(*center),
+                radius: *radius,
+                start_angle: *start_angle,
+                end_angle: *end_angle,
+            },
+            ArcCurve::Coupler(arc) => ArcCurve::Coupler(Box::new(arc.moved(by))),
+            ArcCurve::Ellipse(arc) => ArcCurve::Ellipse(Box::new(arc.moved(by))),
+        };
+        Self { curve, start: carried(self.start), end: carried(self.end), active: self.active.clone() }
+    }
+
     /// Its length.
     pub fn length(&self) -> f64 {
         self.integrals(Vector2::zeros()).length

@@ -256,6 +256,15 @@ impl Limit {
         ActiveLimit::Leg { leg: self.leg, cause: self.cause }
     }
 
+    /// The limit carried along with the base frame.
+    pub(super) fn moved(mut self, by: Vector2<f64>) -> Self {
+        match &mut self.dyad {
+            Dyad::RR { a, .. } | Dyad::PR { a, .. } | Dyad::RP { a, .. } => *a += by,
+            Dyad::PP { .. } => {}
+        }
+        self
+    }
+
     /// The dyad's own measure, a length, zero on the surface; `turn` is the unit vector at phi.
     ///
     /// RR: `|C + R b - a| - length`. PR: how far `C + R b` lies to the left of the line. RP: `(R i v/|v|)·(a - C - R b) - d`.

@@ -50,6 +50,12 @@ impl Manipulator {
         }
         let legs = self.legs.iter().enumerate().map(|(k, leg)| LegReach::new(k, leg, self.reference, modes));
         let legs = legs.collect::<Result<Vec<_>, _>>()?;
+        Ok(Reach::of_legs(legs))
+    }
+}
+
+impl Reach {
+    fn of_legs(legs: Vec<LegReach>) -> Self {
         let mut size = 0.0_f64;
         for leg in &legs {
             let reach = leg.furthest();
@@ -61,11 +67,24 @@ impl Manipulator {
             size = size.max(own).max(leg.a.norm()).max(leg.b.norm()).max(if reach.is_finite() { reach } else { 0.0 });
         }
         let edges = legs.iter().map(|leg| leg.fixed_edges(size)).collect();
-        Ok(Reach { legs, edges, size })
+        Self { legs, edges, size }
     }
-}
 
-impl Reach {
+    /// The limits carried along with the base frame.
+    pub(super) fn moved(&self, by: Vector2<f64>) -> Self {
+        let legs = self.legs.iter().map(|leg| LegReach {
+            a: leg.a + by,
+            limits: leg.limits.iter().map(|limit| limit.moved(by)).collect(),
+            ..leg.clone()
+        });
+        Self::of_legs(legs.collect())
+    }
+
+    /// The middle of the base pivots.
+    pub(super) fn middle(&self) -> Vector2<f64> {
+        self.legs.iter().map(|leg| leg.a).sum::<Vector2<f64>>() / self.legs.len() as f64
+    }
+
     /// Every surface that may bound the manipulator, leg by leg; see [`Limit`].
     pub fn limits(&self) -> impl Iterator<Item = &Limit> + '_ {
         self.legs.iter().flat_map(|leg| &leg.limits)

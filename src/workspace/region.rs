@@ -167,6 +167,22 @@ impl Region {
         region
     }
 
+    /// The region carried along with the base frame; what does not change by that keeps its digits.
+    pub(super) fn moved(mut self, by: Vector2<f64>) -> Self {
+        for arc in self.loops.iter_mut().flat_map(|l| &mut l.arcs).chain(&mut self.unclosed) {
+            *arc = arc.moved(by);
+        }
+        for part in &mut self.isolated {
+            match part {
+                Isolated::Point { at, .. } => *at = [at[0] + by.x, at[1] + by.y],
+                Isolated::Curve(arc) => *arc = arc.moved(by),
+            }
+        }
+        self.centroid = self.centroid.map(|[x, y]| [x + by.x, y + by.y]);
+        self.bbox = self.bbox.map(|[x, y, to_x, to_y]| [x + by.x, y + by.y, to_x + by.x, to_y + by.y]);
+        self
+    }
+
     /// Area, perimeter, centroid, bounding box and counts from the loops.
     fn measure(&mut self) {
         let bbox = |arcs: &mut dyn Iterator<Item = [f64; 4]>| {

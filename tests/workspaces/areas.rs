@@ -197,11 +197,7 @@ impl Account {
             self.note("cut", left + right, &here, size, 1.0, about);
         }
         let plain = || Frame { turn: 0.0, shift: Point::zeros(), scale: 1.0, first: 0 };
-        // Maximal workspaces are found only up to some hundred sizes away, see the test of its own below.
-        let sizes = match kind {
-            WorkspaceKind::Maximal | WorkspaceKind::Inclusive(_) => 1e2,
-            _ => 1e3,
-        };
+        let sizes = 1e3;
         let frames = [
             // Coordinates so many sizes away have so many times the roundings.
             ("turned", 1.0, Frame { turn: 0.7, ..plain() }),
@@ -306,7 +302,6 @@ fn dextrous_areas_agree_on_every_road() {
 }
 
 #[test]
-#[ignore = "a thousand sizes from the origin some maximal workspaces come out undecided: the legs are not moved to it first"]
 fn maximal_areas_far_away_are_those_at_home() {
     let mut wrong = Vec::new();
     for number in 0..30 * scale() {

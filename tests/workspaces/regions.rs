@@ -527,7 +527,7 @@ fn dextrous_workspaces_shrink_to_a_point_and_to_a_circle() {
     };
     let point = dextrous([2.0, 3.5]);
     assert!(matches!(point[..], [Isolated::Point { at: [x, y], .. }] if x.hypot(y) < 1e-14), "{point:?}");
-    // Leg 2 keeps out the part nearer to its pivot than 3.
+    // Leg 2 keeps out the part nearer to its pivot than 3; leg 3, whose pivot is the reference point, only what is nearer than 1 to a place 10 away.
     let circle = dextrous([5.5, 9.5]);
     let total: f64 = (circle.iter())
         .map(|part| match part {
@@ -536,14 +536,7 @@ fn dextrous_workspaces_shrink_to_a_point_and_to_a_circle() {
         })
         .sum();
     let half = ((7.5_f64.powi(2) + 100.0 - 9.0) / (2.0 * 7.5 * 10.0)).acos();
-    assert!((total - 7.5 * (TAU - 2.0 * half) + kept_out(7.5)).abs() < 1e-12 * total, "{total}");
-}
-
-/// The length of a circle about the origin that leg 3 of that manipulator, whose pivot is the reference point, keeps out.
-fn kept_out(radius: f64) -> f64 {
-    let d = 5f64.hypot(8.66);
-    let cosine = (radius * radius + d * d - 1.0) / (2.0 * radius * d);
-    if cosine < 1.0 { 2.0 * radius * cosine.acos() } else { 0.0 }
+    assert!((total - 7.5 * (TAU - 2.0 * half)).abs() < 1e-12 * total, "{total}");
 }
 
 /// The manipulator moved, turned and scaled.

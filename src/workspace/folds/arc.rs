@@ -39,6 +39,11 @@ impl CouplerArc {
         Self { pair, sigma, phi_start, phi_end, curve, branch, from, to }
     }
 
+    /// The arc carried along with the base frame.
+    pub(in super::super) fn moved(&self, by: Point) -> Self {
+        Self { pair: self.pair.map(|limit| limit.moved(by)), curve: self.curve.moved(by), ..self.clone() }
+    }
+
     fn parameter(&self, part: f64) -> f64 {
         self.from + part * (self.to - self.from)
     }

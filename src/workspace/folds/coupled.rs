@@ -128,6 +128,17 @@ impl Coupled {
         (curve, frozen)
     }
 
+    /// The curve carried along with the base frame; branches and parameters stay.
+    pub(crate) fn moved(&self, by: Point) -> Self {
+        let mut out = *self;
+        out.forms = self.forms.map(|form| form.moved(by));
+        match &mut out.law {
+            Law::Circles { first: [a, _], .. } | Law::CircleLine { first: [a, _], .. } => *a += by,
+            Law::Lines { forms } => *forms = forms.map(|form| form.moved(by)),
+        }
+        out
+    }
+
     /// The branches.
     pub(crate) fn branches(&self) -> impl Iterator<Item = Branch> + use<> {
         let sigmas = self.sigmas;

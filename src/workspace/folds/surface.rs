@@ -66,6 +66,15 @@ impl Form {
         })
     }
 
+    /// The surface carried along with the base frame.
+    pub(crate) fn moved(self, by: Point) -> Self {
+        match self {
+            Self::Circle { a, b, r } => Self::Circle { a: a + by, b, r },
+            Self::Line { n, h, b } => Self::Line { n, h: h + n.dot(&by), b },
+            Self::PlatformLine { a, m, k } => Self::PlatformLine { a: a + by, m, k },
+        }
+    }
+
     /// How far a pose is off the surface, a length; signed as the dyad's value less its bound.
     #[cfg(test)]
     pub(crate) fn value(&self, at: &Place) -> f64 {
