@@ -387,10 +387,11 @@ def region(answer: Region, ax: Axes | None, label: str | None) -> Axes:
     outlines = answer.outlines()
     if answer.overlays:
         # Over one another each is in one colour under its name.
-        _outlined(ax, outlines, label or answer.kind)
+        isolated = _outlined(ax, outlines, label or answer.kind, answer)
         for other, others in zip(answer.overlays, answer.overlay_outlines(), strict=True):
-            _outlined(ax, others, other._label())
-        isolated = COLOURS[0]
+            colour = _outlined(ax, others, other._label(), other)
+            for part in other.isolated:
+                _isolated(ax, part, colour)
     elif label is None:
         _filled(ax, outlines, COLOURS[1])
         _by_limit(ax, answer, outlines)
@@ -401,7 +402,7 @@ def region(answer: Region, ax: Axes | None, label: str | None) -> Axes:
             ax.set(xticks=[], yticks=[])
             ax.text(0.5, 0.5, "empty", transform=ax.transAxes, ha="center", va="center", color="#8a949e")
     else:
-        isolated = _outlined(ax, outlines, label)
+        isolated = _outlined(ax, outlines, label, answer)
     for part in answer.isolated:
         _isolated(ax, part, isolated)
     ax.autoscale_view()
@@ -420,14 +421,15 @@ def _isolated(ax: Axes, part: Isolated, colour: str) -> None:
         ax.plot(*ends.T, "-" if part.curve == "line" else ".", color=colour, lw=1.6)
 
 
-def _outlined(ax: Axes, outlines: list[Points], label: str) -> str:
+def _outlined(ax: Axes, outlines: list[Points], label: str, region: Region) -> str:
     """A region among others: filled and bounded in the next colour, which is returned, under its name."""
     colour = _colour(len(ax.get_legend_handles_labels()[1]))
     _filled(ax, outlines, colour)
     for place, line in enumerate(outlines):
         ax.plot(*line.T, color=colour, lw=1.6, label=None if place else label)
     if not outlines:
-        ax.plot([], [], color=colour, lw=1.6, label=f"{label} (empty)")
+        what = "no area" if region.isolated else "empty"
+        ax.plot([], [], color=colour, lw=1.6, label=f"{label} ({what})")
     ax.legend(fontsize="small")
     return colour
 
@@ -504,7 +506,7 @@ def tilts(answer: HanaTilts, ax: Axes | None) -> Axes:
         ax.plot(*answer.at, "o", mfc="white", mec="black")
         said.append(f"{np.degrees(answer.zeta):.6g}° at ({', '.join(f'{x:.6g}' for x in answer.at)})")
     if answer.supremum is not None:
-        said.append(f"at most {np.degrees(answer.supremum.zeta):.6g}°")
+        said.append(f"largest {np.degrees(answer.supremum.zeta):.6g}°")
     ax.set_title(", ".join(said) or "empty workspace")
     return ax
 

@@ -138,6 +138,18 @@ fn row_of(values: &[f64], row: usize, width: usize) -> Option<&[f64]> {
     values.get(width * row..width * (row + 1)).filter(|row| !row.is_empty())
 }
 
+/// Refuses rates and accelerations of a row that are not finite.
+fn finite(given: [&[f64]; 2], row: usize, widths: [usize; 2]) -> Result<(), SpatialError> {
+    for (k, what) in ["rate", "acceleration"].into_iter().enumerate() {
+        for (place, &value) in (1..).zip(row_of(given[k], row, widths[k]).unwrap_or_default()) {
+            if !value.is_finite() {
+                return Err(SpatialError::NotFinite { what: format!("{what} {place}"), value });
+            }
+        }
+    }
+    Ok(())
+}
+
 /// HANA in poses `(n, 3)`; rates and accelerations have as many rows, or none.
 pub fn hana(
     py: Python<'_>,
@@ -150,6 +162,7 @@ pub fn hana(
     let (poses, moving) = (poses.as_slice()?, [rates.as_slice()?, accelerations.as_slice()?]);
     let three = |found: Result<Vector3<f64>, SpatialError>| found.ok().map(|found| found.as_slice().to_vec());
     let ask = |row: usize| {
+        finite(moving, row, [3, 3]).map_err(RowError::Spatial)?;
         let pose = HanaPose::new(poses[3 * row], poses[3 * row + 1], poses[3 * row + 2]);
         let [rates, accelerations] = moving.map(|given| row_of(given, row, 3).map(Vector3::from_column_slice));
         let velocity = robot.velocity(&pose, mode).map_err(RowError::Spatial)?;
@@ -196,6 +209,7 @@ pub fn tripod(
     let (poses, moving) = (poses.as_slice()?, [rates.as_slice()?, accelerations.as_slice()?]);
     let six = |found: Result<Vector6<f64>, TripodError>| found.ok().map(|found| found.as_slice().to_vec());
     let ask = |row: usize| {
+        finite(moving, row, widths).map_err(|error| RowError::Tripod(error.into()))?;
         let velocity = pose(&poses[width * row..width * (row + 1)]).and_then(|pose| robot.velocity(&pose));
         let velocity = velocity.map_err(RowError::Tripod)?;
         let given = |k: usize, what: &'static str| -> Result<Option<Vector6<f64>>, RowError> {

@@ -92,6 +92,10 @@ impl Reach {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn assemblies(&self) -> Result<Vec<Workspace>, WorkspaceError> {
+        if let Some(middle) = self.far() {
+            let near = self.moved(-middle);
+            return Ok(near.assemblies()?.iter().map(|found| self.carried(&near, found, middle)).collect());
+        }
         self.window()?;
         let space = Space::new(self);
         space.decided()?;
@@ -116,6 +120,11 @@ impl Reach {
             if !value.is_finite() {
                 return Err(WorkspaceError::NotFinite { what, value });
             }
+        }
+        if let Some(middle) = self.far() {
+            let near = self.moved(-middle);
+            let found = near.assembly(&Pose::new(from.x - middle.x, from.y - middle.y, from.phi))?;
+            return Ok(self.carried(&near, &found, middle));
         }
         self.window()?;
         let at = from.place(self.legs[0].reference);

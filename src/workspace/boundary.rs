@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::Vector2;
 
 use super::folds::CouplerArc;
-use super::limits::ActiveLimit;
+use super::limits::{ActiveLimit, Limit};
 
 /// What a piece of boundary lies on.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,8 +54,8 @@ pub struct ArcIntegrals {
 }
 
 impl BoundaryArc {
-    /// The piece carried along with the base frame.
-    pub(super) fn moved(&self, by: Vector2<f64>) -> Self {
+    /// The piece carried along with the base frame, in which limits are these.
+    pub(super) fn moved(&self, by: Vector2<f64>, own: &dyn Fn(&Limit) -> Limit) -> Self {
         let carried = |p: [f64; 2]| [p[0] + by.x, p[1] + by.y];
         let curve = match &self.curve {
             ArcCurve::Line => ArcCurve::Line,
@@ -65,8 +65,8 @@ impl BoundaryArc {
                 start_angle: *start_angle,
                 end_angle: *end_angle,
             },
-            ArcCurve::Coupler(arc) => ArcCurve::Coupler(Box::new(arc.moved(by))),
-            ArcCurve::Ellipse(arc) => ArcCurve::Ellipse(Box::new(arc.moved(by))),
+            ArcCurve::Coupler(arc) => ArcCurve::Coupler(Box::new(arc.moved(by, own))),
+            ArcCurve::Ellipse(arc) => ArcCurve::Ellipse(Box::new(arc.moved(by, own))),
         };
         Self { curve, start: carried(self.start), end: carried(self.end), active: self.active.clone() }
     }

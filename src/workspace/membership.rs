@@ -4,7 +4,7 @@
 //! slack of the place the least over the legs: how far the reference point may be moved without turning the platform. The margin is
 //! the greatest slack over the orientations (for total and dextrous the least). Between orientations where a leg meets a limit, or where
 //! the distance to a piece of an edge is stationary or passes to another piece, every such distance is monotone, and these orientations are known
-//! in closed form. In between the least of the distances has one peak (superlevel sets of monotone functions are intervals, and so are their
+//! in closed form (all but one kind, see [`super::moving_edge`]). In between the least of the distances has one peak (superlevel sets of monotone functions are intervals, and so are their
 //! intersections), which a section search cannot miss; the least value lies at an end.
 //!
 //! Of legs with a range of joint 3 the edge moves with the orientation; their orientations are in [`super::moving_edge`].
@@ -235,7 +235,7 @@ impl Reach {
     /// Whether a place belongs to a workspace, how far it is from the edge in its best orientation, and which limit binds there.
     ///
     /// **Accuracy**: a few roundings of the mechanism's largest length; for legs with a range of joint 3 a peak nearer than 1e-5 rad to where the shape of an edge changes
-    /// may be cut by that share of a pivot's way. Outside, the margin is measured to the nearest
+    /// may be cut by that share of a pivot's way, and where joints 1 and 3 end in different modes, two events within 0.07 rad of each other may be missed. Outside, the margin is measured to the nearest
     /// edges in the best orientation. **Cost**: `inside` alone ([`Reach::contains`]) below a microsecond; the margin some microseconds for rings, some tens for sliders with links and sectors, tens of milliseconds, and up to a second, for legs with a range of joint 3.
     ///
     /// ```

@@ -7,7 +7,7 @@ use nalgebra::Vector2;
 use super::leg::{Chain, LegReach};
 use super::limits::{Limit, WorkspaceError, WorkspaceModes};
 use super::membership::Edge;
-use super::region::WorkspaceKind;
+use super::region::{Workspace, WorkspaceKind};
 use super::total::Sweep;
 use crate::manipulator::Manipulator;
 use crate::plane::{AngleSet, PhiRange, direction};
@@ -56,16 +56,7 @@ impl Manipulator {
 
 impl Reach {
     fn of_legs(legs: Vec<LegReach>) -> Self {
-        let mut size = 0.0_f64;
-        for leg in &legs {
-            let reach = leg.furthest();
-            let own = match leg.chain {
-                Chain::Rpr { offset } => offset.abs(),
-                Chain::Rrr { l1, l2 } => l1 + l2,
-                Chain::Prr { l, .. } => l,
-            };
-            size = size.max(own).max(leg.a.norm()).max(leg.b.norm()).max(if reach.is_finite() { reach } else { 0.0 });
-        }
+        let size = legs.iter().map(|leg| leg.largest().max(leg.a.norm())).fold(0.0, f64::max);
         let edges = legs.iter().map(|leg| leg.fixed_edges(size)).collect();
         Self { legs, edges, size }
     }
@@ -80,9 +71,24 @@ impl Reach {
         Self::of_legs(legs.collect())
     }
 
-    /// The middle of the base pivots.
-    pub(super) fn middle(&self) -> Vector2<f64> {
-        self.legs.iter().map(|leg| leg.a).sum::<Vector2<f64>>() / self.legs.len() as f64
+    /// The middle of the base pivots, where that is far from the origin: curves are told apart by the digits that distance leaves of their places.
+    pub(super) fn far(&self) -> Option<Vector2<f64>> {
+        let middle = self.legs.iter().map(|leg| leg.a).sum::<Vector2<f64>>() / self.legs.len() as f64;
+        let spread = self.legs.iter().map(|leg| leg.largest().max((leg.a - middle).norm())).fold(0.0, f64::max);
+        (spread > 0.0 && middle.norm() > FAR * spread).then_some(middle)
+    }
+
+    /// A workspace of these limits that was found where they are `near` the origin, carried back by `by`; its arcs name the limits as they are here.
+    pub(super) fn carried(&self, near: &Self, found: &Workspace, by: Vector2<f64>) -> Workspace {
+        let own = |limit: &Limit| {
+            let named = near.limits().zip(self.limits()).find(|(there, _)| *there == limit);
+            named.map_or_else(|| limit.moved(by), |(_, here)| *here)
+        };
+        Workspace {
+            kind: found.kind,
+            region: found.region.moved(by, &own),
+            separating: found.separating.iter().map(|arc| arc.moved(by, &own)).collect(),
+        }
     }
 
     /// Every surface that may bound the manipulator, leg by leg; see [`Limit`].
@@ -165,11 +171,25 @@ impl Reach {
     }
 }
 
+/// Beyond so many of its own lengths from the origin a mechanism is far away (heuristic: nearer, moving it gains less than three bits of its places).
+const FAR: f64 = 4.0;
+
 /// What misses a limit by less than this many of the mechanism's largest length meets it (error bound: the places of pivots
 /// and their distances take some ten roundings of that length).
 pub(super) const TOUCH: f64 = 16.0 * f64::EPSILON;
 
 impl LegReach {
+    /// Its largest length.
+    fn largest(&self) -> f64 {
+        let own = match self.chain {
+            Chain::Rpr { offset } => offset.abs(),
+            Chain::Rrr { l1, l2 } => l1 + l2,
+            Chain::Prr { l, .. } => l,
+        };
+        let reach = self.furthest();
+        own.max(self.b.norm()).max(if reach.is_finite() { reach } else { 0.0 })
+    }
+
     /// Whether the leg allows the reference point at a place, the platform turned by a unit vector.
     pub(super) fn allows_pose(&self, at: Vector2<f64>, turn: Vector2<f64>, tol: f64) -> bool {
         self.allows(at + crate::plane::product(turn, self.b), turn, tol)

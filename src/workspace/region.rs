@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::Vector2;
 
 use super::boundary::{ArcCurve, BoundaryArc, around};
-use super::limits::{ActiveLimit, WorkspaceError};
+use super::limits::{ActiveLimit, Limit, WorkspaceError};
 use crate::plane::PhiRange;
 
 /// Which workspace is asked for. Angles in radians.
@@ -167,20 +167,21 @@ impl Region {
         region
     }
 
-    /// The region carried along with the base frame; what does not change by that keeps its digits.
-    pub(super) fn moved(mut self, by: Vector2<f64>) -> Self {
-        for arc in self.loops.iter_mut().flat_map(|l| &mut l.arcs).chain(&mut self.unclosed) {
-            *arc = arc.moved(by);
+    /// The region carried along with the base frame, in which limits are these; what does not change by that keeps its digits.
+    pub(super) fn moved(&self, by: Vector2<f64>, own: &dyn Fn(&Limit) -> Limit) -> Self {
+        let mut out = self.clone();
+        for arc in out.loops.iter_mut().flat_map(|l| &mut l.arcs).chain(&mut out.unclosed) {
+            *arc = arc.moved(by, own);
         }
-        for part in &mut self.isolated {
+        for part in &mut out.isolated {
             match part {
                 Isolated::Point { at, .. } => *at = [at[0] + by.x, at[1] + by.y],
-                Isolated::Curve(arc) => *arc = arc.moved(by),
+                Isolated::Curve(arc) => *arc = arc.moved(by, own),
             }
         }
-        self.centroid = self.centroid.map(|[x, y]| [x + by.x, y + by.y]);
-        self.bbox = self.bbox.map(|[x, y, to_x, to_y]| [x + by.x, y + by.y, to_x + by.x, to_y + by.y]);
-        self
+        out.centroid = self.centroid.map(|[x, y]| [x + by.x, y + by.y]);
+        out.bbox = self.bbox.map(|[x, y, to_x, to_y]| [x + by.x, y + by.y, to_x + by.x, to_y + by.y]);
+        out
     }
 
     /// Area, perimeter, centroid, bounding box and counts from the loops.

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use assur::nalgebra::{Rotation2, Vector2};
 use assur::plane::PhiRange;
-use assur::workspace::{BoundaryArc, Region, WorkspaceKind, WorkspaceModes};
+use assur::workspace::{ArcCurve, BoundaryArc, Isolated, Region, WorkspaceKind, WorkspaceModes};
 use assur::{JointKind, Leg, Manipulator, Placement};
 
 use crate::golden::kind as golden_kind;
@@ -302,21 +302,53 @@ fn dextrous_areas_agree_on_every_road() {
 }
 
 #[test]
-fn maximal_areas_far_away_are_those_at_home() {
-    let mut wrong = Vec::new();
-    for number in 0..30 * scale() {
+fn workspaces_far_away_are_those_at_home() {
+    let mut coupled = 0;
+    for number in 0..24 * scale() {
         let case = random_case(number, Trouble::None);
         let size = Oracle::of(&case.robot, case.modes).size;
-        let far = Frame { turn: 0.0, shift: Point::new(0.8, -0.6) * 1e3 * size, scale: 1.0, first: 0 };
-        let area = |robot: &Manipulator| {
-            robot.workspace(&WorkspaceKind::Maximal, &modes_of(&case)).expect("is covered").region.area
-        };
-        let (here, there) = (area(&case.robot), area(&far.robot(&case.robot)));
-        if (here - there).abs() > 1e-9 * size * size {
-            wrong.push(format!("{}: {here} and {there}", case.kind));
+        for (way, kind) in [
+            (Point::new(1.0, 0.0), WorkspaceKind::Maximal),
+            (Point::new(0.0, -1.0), WorkspaceKind::Maximal),
+            (Point::new(0.8, -0.6), WorkspaceKind::Inclusive(PhiRange { from: -0.4, width: 0.9 })),
+        ] {
+            let shift = way * 1e3 * size;
+            let far = Frame { turn: 0.0, shift, scale: 1.0, first: 0 }.robot(&case.robot);
+            let workspace = |robot: &Manipulator| robot.workspace(&kind, &modes_of(&case)).expect("is covered");
+            let (here, there) = (workspace(&case.robot), workspace(&far));
+            let near = |p: [f64; 2], q: [f64; 2]| (Point::from(p) - Point::from(q)).norm() <= 1e-9 * size;
+            let back = |p: [f64; 2]| [p[0] - shift.x, p[1] - shift.y];
+            let what = format!("{} {way:?} {}", case.kind, kind.name());
+            assert!((here.region.area - there.region.area).abs() <= 1e-9 * size * size, "{what}");
+            assert_eq!(here.region.isolated.len(), there.region.isolated.len(), "{what}");
+            match (here.region.centroid, there.region.centroid) {
+                // Of slivers the area is known too badly to divide by.
+                (Some(p), Some(q)) => assert!(near(p, back(q)) || here.region.area < 1e-4 * size * size, "{what}"),
+                (p, q) => assert!(p.is_none() && q.is_none(), "{what}"),
+            }
+            if let (Some(p), Some(q)) = (here.region.bbox, there.region.bbox) {
+                assert!(near([p[0], p[1]], back([q[0], q[1]])) && near([p[2], p[3]], back([q[2], q[3]])), "{what}");
+            }
+            let reach = far.reach(&modes_of(&case)).expect("is covered");
+            let isolated = there.region.isolated.iter().filter_map(|part| match part {
+                Isolated::Curve(arc) => Some(arc),
+                Isolated::Point { .. } => None,
+            });
+            for arc in arcs(&there.region).chain(&there.separating).chain(isolated) {
+                let points = arc.points(3);
+                assert!(near(points[0], arc.start) && near(points[2], arc.end), "{what}");
+                let (ArcCurve::Coupler(curve) | ArcCurve::Ellipse(curve)) = &arc.curve else { continue };
+                // Its limits are those of the mechanism, and hold on it.
+                let (at, phi) = (Point::from(curve.point_at(0.5)), curve.phi_at(0.5));
+                for limit in &curve.pair {
+                    assert!(reach.limits().any(|own| own == limit), "{what}");
+                    assert!(limit.value(at, Point::new(phi.cos(), phi.sin())).abs() <= 1e-9 * size, "{what}");
+                }
+                coupled += 1;
+            }
         }
     }
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(coupled > 100, "{coupled}");
 }
 
 // ── ranges cut in two ──

@@ -32,9 +32,10 @@ impl Hana {
     ///
     /// Along `z` the largest is among four places in closed form, since what the near ends of the strokes allow grows with `z` and what the far ends allow falls, with
     /// one jump at `hi - sqrt((l + r)² - R²)`, `l = sqrt(L² - y²)`. Along `y` ranges are bounded and halved until no range can hold more than `1e-9` above what is had.
-    /// **Proof**: `at_most` bounds every place, with a margin for rounding; it is above `zeta` by no more than `1e-9`, unless the workspace narrows to a point where the largest is approached.
+    /// **Proof**: `at_most` bounds every place, with a margin for rounding; as a rule it is above `zeta` by no more than `1e-9`; by more where the workspace narrows
+    /// to a point where the largest is approached, or where 20,000 ranges do not suffice.
     /// Where the strokes of legs 1 and 2 differ, what both have in common counts: over tilts from `-a` to `a` slider 2 is at the heights of slider 1.
-    /// **Cost**: a tenth of a millisecond to some milliseconds. **Source**: derived here, see the module.
+    /// **Cost**: a tenth of a millisecond to some milliseconds, a tenth of a second where all ranges are used. **Source**: derived here, see the module.
     ///
     /// # Errors
     /// Sliders 1 and 2 on opposite sides of their joints.

@@ -39,9 +39,9 @@ impl CouplerArc {
         Self { pair, sigma, phi_start, phi_end, curve, branch, from, to }
     }
 
-    /// The arc carried along with the base frame.
-    pub(in super::super) fn moved(&self, by: Point) -> Self {
-        Self { pair: self.pair.map(|limit| limit.moved(by)), curve: self.curve.moved(by), ..self.clone() }
+    /// The arc carried along with the base frame, in which its limits are these.
+    pub(in super::super) fn moved(&self, by: Point, own: &dyn Fn(&Limit) -> Limit) -> Self {
+        Self { pair: self.pair.each_ref().map(own), curve: self.curve.moved(by), ..self.clone() }
     }
 
     fn parameter(&self, part: f64) -> f64 {

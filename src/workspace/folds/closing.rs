@@ -102,12 +102,8 @@ impl Tracer<'_> {
 
     /// Keeps of pieces that lie on each other the longer.
     pub(super) fn drop_covered(&self, pieces: &mut Vec<(Piece, bool, Look)>) {
-        let length = |piece: &Piece| {
-            let [start, middle, end] = [0.0, 0.5, 1.0].map(|part| self.eval(piece.curve, piece.part(part)).0);
-            (middle - start).norm() + (end - middle).norm()
-        };
         let mut order: Vec<usize> = (0..pieces.len()).collect();
-        order.sort_by(|&i, &j| length(&pieces[j].0).total_cmp(&length(&pieces[i].0)).then(i.cmp(&j)));
+        order.sort_by(|&i, &j| self.extent(&pieces[j].0).total_cmp(&self.extent(&pieces[i].0)).then(i.cmp(&j)));
         let mut kept: Vec<usize> = Vec::new();
         for k in order {
             if !kept.iter().any(|&other| self.lies_on(&pieces[k].0, &pieces[other].0)) {
@@ -116,6 +112,12 @@ impl Tracer<'_> {
         }
         kept.sort_unstable();
         *pieces = kept.into_iter().map(|k| pieces[k].clone()).collect();
+    }
+
+    /// How far a piece goes from its start by its middle to its end, which may be the start again.
+    pub(super) fn extent(&self, piece: &Piece) -> f64 {
+        let [start, middle, end] = [0.0, 0.5, 1.0].map(|part| self.eval(piece.curve, piece.part(part)).0);
+        (middle - start).norm() + (end - middle).norm()
     }
 
     /// Whether a piece lies on another, its ends and its middle.

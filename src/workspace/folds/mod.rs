@@ -32,9 +32,6 @@ use super::reach::Reach;
 use super::region::{Workspace, WorkspaceKind};
 use crate::plane::PhiRange;
 
-/// Beyond so many of its own sizes from the origin a mechanism is far away.
-const FAR: f64 = 4.0;
-
 impl Reach {
     /// The part of the maximal workspace at whose places `reached` says so.
     pub(super) fn folded_where(&self, reached: &dyn Fn(Vector2<f64>) -> bool) -> Workspace {
@@ -48,14 +45,8 @@ impl Reach {
 
     /// The maximal workspace, or that of a range of orientations.
     pub(super) fn folded(&self, kind: &WorkspaceKind, range: Option<&PhiRange>) -> Workspace {
-        // Far from the origin curves are told apart by what is left of their places' digits: there the mechanism is moved to it first.
-        let middle = self.middle();
+        let Some(middle) = self.far() else { return outline::outline(self, range).workspace(kind) };
         let near = self.moved(-middle);
-        if self.size <= FAR * near.size {
-            return outline::outline(self, range).workspace(kind);
-        }
-        let Workspace { kind, region, separating } = outline::outline(&near, range).workspace(kind);
-        let separating = separating.iter().map(|arc| arc.moved(middle)).collect();
-        Workspace { kind, region: region.moved(middle), separating }
+        self.carried(&near, &outline::outline(&near, range).workspace(kind), middle)
     }
 }

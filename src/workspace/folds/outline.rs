@@ -572,17 +572,13 @@ impl<'a> Tracer<'a> {
         // Next to where curves of the boundary touch, roundings leave shreds.
         let bounding: HashSet<usize> = boundary.iter().flat_map(|(piece, ..)| [piece.start, piece.end]).collect();
         isolated.retain(|(piece, ..)| {
-            let ends = [piece.start, piece.end];
-            let short = (self.curves.vertices[ends[1]] - self.curves.vertices[ends[0]]).norm() <= TOUCHING * self.size;
-            !(short && ends.iter().any(|end| bounding.contains(end)))
+            let short = self.extent(piece) <= TOUCHING * self.size;
+            !(short && [piece.start, piece.end].iter().any(|end| bounding.contains(end)))
         });
         self.drop_covered(&mut isolated);
         // Nor do, if all loops close without them, those that no loop of their own could take in, nor short ones where curves touch to a high order.
         if balance(&boundary).values().all(|&sum| sum == 0) {
-            undecided.retain(|(piece, _, _)| {
-                let ends = [piece.from, piece.to].map(|t| self.eval(piece.curve, t).0);
-                (ends[1] - ends[0]).norm() > HIGH_CONTACT * self.size
-            });
+            undecided.retain(|(piece, _, _)| self.extent(piece) > HIGH_CONTACT * self.size);
             self.drop_covered(&mut undecided);
             drop_dead_ends(&mut undecided);
         }
