@@ -483,7 +483,7 @@ mod tests {
         // p = q, r = s: at psi = 0 both circles are one.
         let (parallelogram, frozen) = Coupled::new(circle(0.0, 0.0, 2.0), circle(1.5, 1.5, 2.0));
         assert_eq!(frozen, [0.0]);
-        assert_eq!(parallelogram.map(|curve| curve.ends), Some([End::Swap, End::Crossing]));
+        assert_eq!(parallelogram.map(|curve| curve.ends), Some([End::Swap, End::Through]));
         let spot = parallelogram.expect("a curve").at(Branch { half: true, sigma: true }, 1e-7);
         assert!(spot.place.c.x.abs() < 2.0 && spot.place.c.iter().all(|x| x.is_finite()));
     }
