@@ -21,7 +21,7 @@ from .motion import WorkingModes
 from .paths import FollowedPath
 from .sweeps import Sweep
 from .tripod import DeterminantCurves, TiltMap
-from .workspaces import Isolated, POINTS, Region
+from .workspaces import Isolated, Overlay, POINTS, Region
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -421,7 +421,7 @@ def _isolated(ax: Axes, part: Isolated, colour: str) -> None:
         ax.plot(*ends.T, "-" if part.curve == "line" else ".", color=colour, lw=1.6)
 
 
-def _outlined(ax: Axes, outlines: list[Points], label: str, region: Region) -> str:
+def _outlined(ax: Axes, outlines: list[Points], label: str, region: Region | Overlay) -> str:
     """A region among others: filled and bounded in the next colour, which is returned, under its name."""
     colour = _colour(len(ax.get_legend_handles_labels()[1]))
     _filled(ax, outlines, colour)
