@@ -18,6 +18,7 @@ draw seven-link group examples/seven-link.json
 draw chain group examples/chain.json --inputs=0.1
 draw hana hana workspace examples/hana.toml constant --phi=0
 draw hana-modes hana forward examples/hana.toml --inputs=1,-0.5,0.3
+draw multipteron multipteron forward examples/quadrupteron.toml --inputs=0.8,1.2,0.9,0.4
 draw tripod tripod inverse examples/tripod-cartesian.toml --pose=200,260,240,10,5,-3
 # Every family of the catalogue, at inputs that its model comes with.
 for family in 3-RPR 3-RRR 3-PRR 3-RRP 3-PRP 3-PPR 3-RPP R_P_R,_P_RR,_R_RP; do

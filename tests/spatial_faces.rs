@@ -229,6 +229,9 @@ fn multipterons_from_files() {
                 .any(|mode| { place(&mode["pose"]["position"]).iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-9) })
         );
         assert!(text(&["multipteron", "forward", &file, &inputs]).contains("degree"));
+        let picture = drawn(&["multipteron", "forward", &file, &inputs], "multipteron.svg");
+        assert_eq!(picture.matches("mode ").count(), count);
+        assert!(drawn(&["multipteron", "inverse", &file, pose], "multipteron-pose.svg").contains("stroke-dasharray"));
         assert_eq!(json(&["check", &file, "--json"])["degree_bound"].as_u64(), Some(count as u64));
     }
     let path = folder("multipterons").join("five.toml");

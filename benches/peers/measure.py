@@ -23,7 +23,7 @@ TARGET = ROOT / "target" / "peers"
 LEFT_OUT = [
     (
         "HomotopyContinuation.jl",
-        "Julia itself is in none of Debian, PyPI, npm, crates.io; `juliacall` and `jill` download it from elsewhere",
+        "Julia itself is in none of the package registries that the others come from; `juliacall` and `jill` download it from elsewhere",
     ),
 ]
 

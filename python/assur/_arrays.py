@@ -17,7 +17,8 @@ MOST_POINTS = 1_000_000
 _REAL = "fiu"
 
 
-def _numbers(what: str, values: ArrayLike) -> FloatArray:
+def reals(what: str, values: ArrayLike) -> FloatArray:
+    """Real numbers in any shape; masked ones are NaN."""
     try:
         found = np.asarray(values)
     except ValueError as error:  # rows of different lengths
@@ -37,7 +38,7 @@ def _wrong_shape(what: str, found: FloatArray, expected: str) -> InputError:
 
 def vector(what: str, values: ArrayLike, *lengths: int) -> list[float]:
     """Numbers as a list; as many as one of ``lengths``."""
-    found = _numbers(what, values)
+    found = reals(what, values)
     if found.shape not in [(length,) for length in lengths]:
         raise _wrong_shape(what, found, " or ".join(f"({length},)" for length in lengths))
     return [float(value) for value in found]
@@ -50,7 +51,7 @@ def optional_vector(what: str, values: ArrayLike | None, length: int) -> list[fl
 
 def rows(what: str, values: ArrayLike, width: int) -> FloatArray:
     """A C-contiguous array ``(n, width)``; the caller's own memory where it is one already."""
-    found = _numbers(what, values)
+    found = reals(what, values)
     if found.ndim != 2 or found.shape[1] != width:
         raise _wrong_shape(what, found, f"(n, {width})")
     return _packed(found)
@@ -63,7 +64,7 @@ def _packed(found: FloatArray) -> FloatArray:
 
 def one_or_rows(what: str, values: ArrayLike, width: int) -> list[float] | FloatArray:
     """One row as a list, or many as an array."""
-    found = _numbers(what, values)
+    found = reals(what, values)
     if found.shape == (width,):
         return [float(value) for value in found]
     if found.ndim == 2 and found.shape[1] == width:
@@ -73,7 +74,7 @@ def one_or_rows(what: str, values: ArrayLike, width: int) -> list[float] | Float
 
 def spread(what: str, values: ArrayLike, count: int, width: int) -> FloatArray:
     """One row for all of ``count``, or a row for each."""
-    found = _numbers(what, values)
+    found = reals(what, values)
     if found.shape not in [(width,), (count, width)]:
         raise _wrong_shape(what, found, f"({width},) or ({count}, {width})")
     return _packed(np.broadcast_to(found, (count, width)))

@@ -396,11 +396,11 @@ def region(answer: Region, ax: Axes | None, label: str | None) -> Axes:
         _filled(ax, outlines, COLOURS[1])
         _by_limit(ax, answer, outlines)
         isolated = COLOURS[0]
-        ax.set_title(f"{answer.kind}: " + (f"area {answer.area:.8g}" if answer.components else "no area" if answer.isolated else "empty"))
+        ax.set_title(f"{answer.kind}: " + (f"area {answer.area:.8g}" if answer.components else answer._without_area()))
         if not outlines and not answer.isolated:
             # Axes without data have a scale that means nothing.
             ax.set(xticks=[], yticks=[])
-            ax.text(0.5, 0.5, "empty", transform=ax.transAxes, ha="center", va="center", color="#8a949e")
+            ax.text(0.5, 0.5, answer._without_area(), transform=ax.transAxes, ha="center", va="center", color="#8a949e")
     else:
         isolated = _outlined(ax, outlines, label, answer)
     for part in answer.isolated:
@@ -428,8 +428,7 @@ def _outlined(ax: Axes, outlines: list[Points], label: str, region: Region | Ove
     for place, line in enumerate(outlines):
         ax.plot(*line.T, color=colour, lw=1.6, label=None if place else label)
     if not outlines:
-        what = "no area" if region.isolated else "empty"
-        ax.plot([], [], color=colour, lw=1.6, label=f"{label} ({what})")
+        ax.plot([], [], color=colour, lw=1.6, label=f"{label} ({region._without_area()})")
     ax.legend(fontsize="small")
     return colour
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _assur
-from ._arrays import FloatArray, number as one_number, read_only, rows, spread, vector, whole
+from ._arrays import FloatArray, number as one_number, read_only, reals, rows, spread, vector, whole
 from ._report import Report, number, numbers, result
 from ._spatial import MOST_CELLS, MOST_SECTIONS, Spatial
 from ._spatial_batch import TripodVelocityBatch
@@ -470,10 +470,13 @@ class Tripod(Spatial):
         TripodVelocityBatch
             For many: arrays, on all processors. A row that cannot be asked is masked and has its reason in ``errors``.
         """
-        if np.ndim(pose) == 2:
-            given = rows("pose", pose, 12 if np.shape(pose)[1] == 12 else 6)
-            asked = {"rates": rates, "accelerations": accelerations}
-            widths = {what: 6 if one is None or np.shape(one)[-1:] == (6,) else self.degrees_of_freedom for what, one in asked.items()}
+        given = reals("pose", pose)
+        if given.ndim == 2:
+            given = rows("pose", given, 12 if given.shape[1] == 12 else 6)
+            asked = {
+                what: None if one is None else reals(what, one) for what, one in (("rates", rates), ("accelerations", accelerations))
+            }
+            widths = {what: 6 if one is None or one.shape[-1:] == (6,) else self.degrees_of_freedom for what, one in asked.items()}
             moving_rows = {
                 what: np.empty((0, widths[what])) if one is None else spread(what, one, len(given), widths[what])
                 for what, one in asked.items()

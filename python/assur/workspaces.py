@@ -92,6 +92,12 @@ class _Measured:
     isolated: tuple[Isolated, ...]
     unclosed: tuple[BoundaryArc, ...]
 
+    def _without_area(self) -> str:
+        """What a region without an area is; one that is undecided is not empty."""
+        if self.unclosed:
+            return "undecided"
+        return f"no area, {counted(len(self.isolated), 'isolated part')}" if self.isolated else "empty"
+
 
 @dataclass(frozen=True, eq=False)
 class Slice(_Measured):
@@ -364,7 +370,7 @@ class Region(_Measured, Report):
 
     def _summary(self) -> str:
         pieces = f"{counted(self.components, 'component')}, {counted(self.holes, 'hole')}"
-        parts = [f"area {number(self.area)}, perimeter {number(self.perimeter)}, {pieces}" if self.components else "empty"]
+        parts = [f"area {number(self.area)}, perimeter {number(self.perimeter)}, {pieces}" if self.components else self._without_area()]
         if self.stack is not None:
             parts.append(f"volume {number(self.stack.volume)} over {len(self.stack.slices)} slices")
         parts += [f"d area / d {key} {number(slope)}" for key, slope in (self.gradient or {}).items()]

@@ -436,7 +436,11 @@ impl MultipteronModel {
     fn forward(&self, py: Python<'_>, inputs: Vec<f64>) -> PyResult<Answer> {
         Ok(py.detach(|| {
             let answer = self.file.robot.forward(&inputs).map_err(asked)?;
-            Ok::<_, Refused>(Answer::plain(multipteron_forward_json(&self.file.robot, &inputs, &answer)))
+            let (json, file) = (multipteron_forward_json(&self.file.robot, &inputs, &answer), self.file.clone());
+            let numbered = (1..).zip(answer.poses).map(|(number, pose): (usize, _)| (format!("mode {number}"), pose));
+            let poses: Vec<_> = numbered.collect();
+            let draw = move || assur::plot::draw_multipteron_poses(file.title(), &file.robot, &poses);
+            Ok::<_, Refused>(Answer::drawn(json, draw))
         })?)
     }
 
@@ -444,7 +448,11 @@ impl MultipteronModel {
         let (place, turn) = (Vector3::from(place), Vector3::from(turn));
         Ok(py.detach(|| {
             let inputs = self.file.robot.inverse(&place, &turn).map_err(asked)?;
-            Ok::<_, Refused>(Answer::plain(multipteron_inverse_json(&self.file.robot, &place, &turn, &inputs)))
+            let (json, file) =
+                (multipteron_inverse_json(&self.file.robot, &place, &turn, &inputs), self.file.clone());
+            let poses = [(String::new(), TripodPose::new(place, turn))];
+            let draw = move || assur::plot::draw_multipteron_poses(file.title(), &file.robot, &poses);
+            Ok::<_, Refused>(Answer::drawn(json, draw))
         })?)
     }
 }

@@ -242,6 +242,7 @@ def test_multipterons(cli: Cli, name: str) -> None:
     place = [1.0, 2.0, 3.0]
     found = robot.inverse(place)
     assert found.to_json() == cli("multipteron", "inverse", file, f"--pose={joined(place)}", "--json")
+    assert "</svg>" in found.svg() and found.svg() in found._repr_html_()
     back = [mode.pose.position for mode in robot.forward(found.inputs)]
     assert any(np.allclose(position, place) for position in back)
 

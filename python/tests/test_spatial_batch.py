@@ -79,11 +79,48 @@ def test_tripods(name: str, rng: np.random.Generator) -> None:
                 assert batch.mask[row]
                 continue
             one = robot.velocity(pose, rates=rates[row], accelerations=accelerations)
-            kinds = {"none": ""}
-            assert (batch.singularities[row] == 0) == (one.singularity in kinds)
+            assert (batch.singularities[row] == 0) == (one.singularity == "none")
             _same(batch, one, row, names)
             answered += 1
         assert 7 in batch.errors and answered > 30
+
+
+def test_singular_positions_and_orientations() -> None:
+    # Level axes on vertical rails leave the platform free to turn while it is level; rails in a plane leave it free to move.
+    upright = ROBOTS["upright"].to_dict()
+    for leg in upright["legs"]:
+        leg["v"] = [leg["v"][0], leg["v"][1], 0.0]
+    level = assur.Tripod.from_dict(upright)
+    for leg, turn in zip(upright["legs"], np.radians([0.0, 120.0, 240.0]), strict=True):
+        leg["u"], leg["w"] = [np.cos(turn), np.sin(turn), 0.0], [-np.sin(turn), np.cos(turn), 0.0]
+        leg["v"] = [0.0, 0.0, 1.0]
+    names = set()
+    poses = np.array([[0.0, 0.0, 0.0, 0.0, 0.0, 0.3], [0.0, 0.0, 0.0, 0.31, 0.1, 0.0]])
+    for robot in (level, assur.Tripod.from_dict(upright)):
+        batch = robot.velocity(poses, rates=np.ones(6))
+        for row, pose in enumerate(poses.tolist()):
+            if row in batch.errors:
+                continue
+            one = robot.velocity(pose, rates=np.ones(6))
+            name = batch.SINGULARITIES[batch.singularities[row]]
+            names.add(name)
+            assert one.singularity == ("none" if name == "none" else "type 2") and one.position_volume == batch.position_volume[row]
+            assert (name in {"position", "both"}) == (abs(one.position_volume) < 1e-9)
+            assert (name in {"orientation", "both"}) == (abs(one.orientation_volume) < 1e-9)
+            assert batch.pose_if_inputs is not None and batch.pose_if_inputs.mask[row].all() == (name != "none")
+    assert "none" in names and "orientation" in names
+
+
+def test_rows_of_rates_that_cannot_be_asked() -> None:
+    rates = np.ones((3, 3))
+    rates[1, 2] = np.nan
+    batch = HANA.velocity(np.tile([0.5, -9.0, 0.1], (3, 1)), rates=rates)
+    assert list(batch.errors) == [1] and "rate 3" in str(batch.errors[1]) and batch.mask.tolist() == [False, True, False]
+    for robot, pose in ((ROBOTS["cartesian"], np.array([[200.0, 260, 240, 0.1, 0, 0]])), (ROBOTS["5dof"], np.zeros((1, 12)))):
+        with pytest.raises(assur.InputError, match="^rates: "):
+            robot.velocity(pose, rates=[[1.0, 2.0], [3.0]])
+        batch = robot.velocity(pose, accelerations=[np.inf] * 6)
+        assert list(batch.errors) == [0] and "acceleration 1" in str(batch.errors[0])
 
 
 def test_shapes_nothing_and_copies() -> None:

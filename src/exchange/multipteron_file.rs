@@ -66,6 +66,11 @@ impl MultipteronFile {
             .map_err(|error| FileError::Multipteron { file: file.to_owned(), error })?;
         Ok(Self { name: name(&root)?, robot, angle_unit: angle_unit(&root)? })
     }
+
+    /// What stands above its answers: its name, or which member it is.
+    pub fn title(&self) -> &str {
+        if self.name.is_empty() { self.robot.name() } else { &self.name }
+    }
 }
 
 /// Every pose of a Multipteron for slider positions.

@@ -25,7 +25,7 @@ pub use curves::{NamedCurve, draw_curves};
 pub use linkages::draw_linkage;
 pub use modes::{draw_modes, mode_marks};
 pub use plane::{draw_path, draw_singularities};
-pub use robots::{PosedRobot, draw_hana_poses, draw_tripod_poses};
+pub use robots::{PosedRobot, draw_hana_poses, draw_multipteron_poses, draw_tripod_poses};
 pub use scene::{Look, Mark};
 pub use spatial::{draw_hana, draw_tilt_sections};
 pub use triads::draw_assemblies;

@@ -6,7 +6,7 @@ use svg::node::element::{Circle, Group, Line, Polygon, Polyline, Rectangle};
 
 use super::plane::{COLOURS, label};
 use super::symbols::{ALARM, INK, PAPER, QUIET};
-use crate::spatial::{Hana, HanaPose, Tripod, TripodPose};
+use crate::spatial::{Hana, HanaPose, Multipteron, Tripod, TripodPose};
 
 /// A pose to be drawn: what stands above it, the pose, and the sliders' positions.
 pub struct PosedRobot<P, const N: usize> {
@@ -156,6 +156,53 @@ fn tripod_scene(robot: &Tripod, posed: &PosedRobot<TripodPose, 6>) -> Vec<Mark> 
         marks.push(Mark::Dot { at: tip, colour: INK, radius: 2.6 });
     }
     marks
+}
+
+/// A Multipteron in given poses, each with what stands above it: sliders, the strip of each leg's plane from the slider to the platform's point, the platform.
+/// Where a rail is beside its leg is not in the model; here it is outside the platform.
+pub fn draw_multipteron_poses(title: &str, robot: &Multipteron, poses: &[(String, TripodPose)]) -> String {
+    let subtitle = "seen along a parallel projection  ·  each leg's slider, the plane square to it in which the leg moves, the platform's point";
+    let legs = robot.legs();
+    let held = |pose: &TripodPose, point: &Vector3<f64>| pose.position + pose.rotation * point;
+    let places = poses.iter().map(|(_, pose)| pose.position);
+    let reach = legs.iter().map(|(_, point)| point.norm()).fold(0.0, f64::max);
+    // The Tripteron's platform is a point: then by how far it is away.
+    let away = places.clone().map(|place| place.norm()).fold(0.0, f64::max);
+    let size = [reach, 0.5 * away, 1.0].into_iter().find(|size| *size > 0.0).unwrap_or(1.0);
+    let middle = places.sum::<Vector3<f64>>() / poses.len().max(1) as f64;
+    // The same rails in every panel: outside what the legs hold, square to their sliders.
+    let rails: Vec<Vector3<f64>> = legs
+        .iter()
+        .map(|(e, point)| {
+            let mean = poses.iter().map(|(_, pose)| held(pose, point)).sum::<Vector3<f64>>() / poses.len().max(1) as f64;
+            let across = |v: Vector3<f64>| v - e * e.dot(&v);
+            let other = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| e.cross(&axis));
+            let outwards = [across(mean - middle), across(-middle)].into_iter().chain(other);
+            let away = outwards.filter_map(|v| v.try_normalize(1e-3 * size)).next().unwrap_or_else(Vector3::zeros);
+            across(mean) + away * size
+        })
+        .collect();
+    let scene = |pose: &TripodPose| {
+        let mut marks = Vec::new();
+        for (k, ((e, point), rail)) in legs.iter().zip(&rails).enumerate() {
+            let colour = COLOURS[k % COLOURS.len()];
+            let joint = held(pose, point);
+            let slider = rail + e * e.dot(&joint);
+            let along = e * (0.5 * size);
+            marks.push(Mark::line(&[slider - along, slider + along], colour, 4.0));
+            let strip = e.cross(&(joint - slider)).try_normalize(0.0).unwrap_or_else(Vector3::zeros) * (0.2 * size);
+            let corners = vec![slider + strip, joint + strip, joint - strip, slider - strip];
+            marks.push(Mark::Fill { points: corners, colour, opacity: 0.14 });
+            marks.push(Mark::dashed(&[slider, joint], colour));
+            marks.push(Mark::Dot { at: slider, colour: INK, radius: 4.0 });
+            marks.push(Mark::Name { at: slider, text: format!("{}", k + 1) });
+            marks.push(Mark::line(&[pose.position, joint], PLATFORM, 2.4));
+            marks.push(Mark::Dot { at: joint, colour: PLATFORM, radius: 3.0 });
+        }
+        marks.push(Mark::Dot { at: pose.position, colour: PLATFORM, radius: 4.5 });
+        marks
+    };
+    sheet(title, subtitle, poses.iter().map(|(caption, pose)| (caption.as_str(), scene(pose))).collect())
 }
 
 /// Panels side by side on one scale.

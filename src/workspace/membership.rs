@@ -5,7 +5,7 @@
 //! the greatest slack over the orientations (for total and dextrous the least). Between orientations where a leg meets a limit, or where
 //! the distance to a piece of an edge is stationary or passes to another piece, every such distance is monotone, and these orientations are known
 //! in closed form (all but one kind, see [`super::moving_edge`]). In between the least of the distances has one peak (superlevel sets of monotone functions are intervals, and so are their
-//! intersections), which a section search cannot miss; the least value lies at an end.
+//! intersections), which is where the slope changes its sign; the least value lies at an end.
 //!
 //! Of legs with a range of joint 3 the edge moves with the orientation; their orientations are in [`super::moving_edge`].
 
@@ -56,7 +56,13 @@ enum Shape {
 #[derive(Clone, Copy, Debug)]
 struct Slack {
     value: f64,
+    /// Per radian that the platform turns; NaN where the edge moves with it.
+    slope: f64,
     binding: Option<ActiveLimit>,
+}
+
+impl Slack {
+    const NONE: Self = Self { value: f64::INFINITY, slope: 0.0, binding: None };
 }
 
 impl Edge {
@@ -73,21 +79,31 @@ impl Edge {
         Some(Self { shape, ends, active: *arc.active.first()? })
     }
 
-    fn distance(&self, p: Vector2<f64>) -> f64 {
-        let to_ends = || (p - self.ends[0]).norm().min((p - self.ends[1]).norm());
+    /// How far a place is from this piece, and the unit vector in which it becomes farther; not finite on the piece itself.
+    fn distance(&self, p: Vector2<f64>) -> (f64, Vector2<f64>) {
+        let from_ends = || {
+            let [one, other] = self.ends.map(|end| p - end);
+            let away = if one.norm_squared() <= other.norm_squared() { one } else { other };
+            let distance = away.norm();
+            (distance, away / distance)
+        };
         match &self.shape {
-            Shape::Point => (p - self.ends[0]).norm(),
+            Shape::Point => from_ends(),
             Shape::Segment(u, length) => {
                 let from = p - self.ends[0];
-                if (0.0..=*length).contains(&u.dot(&from)) { u.perp(&from).abs() } else { to_ends() }
+                if !(0.0..=*length).contains(&u.dot(&from)) {
+                    return from_ends();
+                }
+                let across = u.perp(&from);
+                (across.abs(), Vector2::new(-u.y, u.x) * across.signum())
             }
             Shape::Arc(center, radius, sector) => {
                 let from = p - center;
-                if sector.is_none_or(|sector| sector.contains(from, 0.0)) {
-                    (from.norm() - radius).abs()
-                } else {
-                    to_ends()
+                if sector.is_some_and(|sector| !sector.contains(from, 0.0)) {
+                    return from_ends();
                 }
+                let norm = from.norm();
+                ((norm - radius).abs(), from * ((norm - radius).signum() / norm))
             }
         }
     }
@@ -174,40 +190,48 @@ impl LegReach {
 
     /// The leg's slack at a pose.
     fn slack(&self, at: Vector2<f64>, turn: Vector2<f64>, fixed: &[Edge], size: f64) -> Slack {
+        let arm = product(turn, self.b);
+        let moves = Vector2::new(-arm.y, arm.x);
         if let Some([low, high]) = self.ring {
-            let d = (at + product(turn, self.b) - self.a).norm();
+            let leg = at + arm - self.a;
+            let d = leg.norm();
             let short = if low > 0.0 { d - low } else { f64::INFINITY };
-            return self.ring_slack(short, high - d);
+            return self.ring_slack(short, high - d, leg.dot(&moves) / d);
         }
         let moved;
         let (edges, place) = if self.platform_sector.is_some() {
             moved = self.edges(turn, size);
             (&moved[..], at)
         } else {
-            (fixed, at + product(turn, self.b) - self.b)
+            (fixed, at + arm - self.b)
         };
-        let nearest = edges.iter().map(|edge| (edge.distance(place), edge.active)).min_by(|a, b| a.0.total_cmp(&b.0));
+        let nearest =
+            edges.iter().map(|edge| (edge.distance(place), edge.active)).min_by(|a, b| a.0.0.total_cmp(&b.0.0));
         let sign = if self.allows_pose(at, turn, 0.0) { 1.0 } else { -1.0 };
         match nearest {
-            Some((distance, active)) => Slack { value: sign * distance, binding: Some(active) },
+            Some(((distance, away), active)) => {
+                let slope = if self.platform_sector.is_some() { f64::NAN } else { sign * away.dot(&moves) };
+                Slack { value: sign * distance, slope, binding: Some(active) }
+            }
             // Everything is allowed, or nothing anywhere.
             None => Slack {
                 value: sign * f64::INFINITY,
                 binding: self.limits.first().map(Limit::active).filter(|_| sign < 0.0),
+                ..Slack::NONE
             },
         }
     }
 
-    /// The slack of a ring from how far the pivots are beyond its inner and within its outer radius.
-    fn ring_slack(&self, beyond: f64, within: f64) -> Slack {
-        let value = beyond.min(within);
+    /// The slack of a ring from how far the pivots are beyond its inner and within its outer radius, and how fast they part.
+    fn ring_slack(&self, beyond: f64, within: f64, parting: f64) -> Slack {
+        let (value, slope) = if beyond < within { (beyond, parting) } else { (within, -parting) };
         let which = |radius: f64| {
             let is = |limit: &&Limit| matches!(limit.dyad, Dyad::RR { length, .. } if length == radius);
             self.limits.iter().find(is).map(Limit::active)
         };
         let [low, high] = self.ring.unwrap_or_default();
         let binding = if value.is_infinite() { None } else { which(if beyond < within { low } else { high }) };
-        Slack { value, binding }
+        Slack { value, slope, binding }
     }
 
     /// Orientations between which the leg's slack has one peak.
@@ -267,23 +291,21 @@ impl Reach {
     fn slack(&self, at: Vector2<f64>, phi: f64) -> Slack {
         let turn = direction(phi);
         let slacks = self.legs.iter().zip(&self.edges).map(|(leg, fixed)| leg.slack(at, turn, fixed, self.size));
-        slacks.min_by(|a, b| a.value.total_cmp(&b.value)).unwrap_or(Slack { value: f64::INFINITY, binding: None })
+        slacks.min_by(|a, b| a.value.total_cmp(&b.value)).unwrap_or(Slack::NONE)
     }
 
     /// The greatest or the least slack over a range of orientations.
     fn extreme_slack(&self, at: Vector2<f64>, range: &PhiRange, greatest: bool) -> Slack {
-        let none = Slack { value: f64::INFINITY, binding: None };
         if greatest {
             return self.extreme_of(0..self.legs.len(), at, range, true);
         }
         // The least is that of one leg, which outside has valleys of its own only.
         let each = (0..self.legs.len()).map(|leg| self.extreme_of(leg..leg + 1, at, range, false));
-        each.min_by(|a, b| a.value.total_cmp(&b.value)).unwrap_or(none)
+        each.min_by(|a, b| a.value.total_cmp(&b.value)).unwrap_or(Slack::NONE)
     }
 
     /// The same of some of the legs.
     fn extreme_of(&self, legs: std::ops::Range<usize>, at: Vector2<f64>, range: &PhiRange, greatest: bool) -> Slack {
-        let none = Slack { value: f64::INFINITY, binding: None };
         let each = || self.legs[legs.clone()].iter().zip(&self.edges[legs.clone()]);
         let mut events = Vec::new();
         for (leg, fixed) in each() {
@@ -302,7 +324,7 @@ impl Reach {
         let slack_of = |cut: f64, which: &dyn Fn(&LegReach) -> bool| {
             let turn = direction(range.from + cut);
             let slacks = each().filter(|(leg, _)| which(leg)).map(|(leg, fixed)| leg.slack(at, turn, fixed, self.size));
-            slacks.min_by(|a, b| a.value.total_cmp(&b.value)).unwrap_or(none)
+            slacks.min_by(|a, b| a.value.total_cmp(&b.value)).unwrap_or(Slack::NONE)
         };
         let slack = |cut: f64| slack_of(cut, &|_| true);
         // The slack of legs whose edges stand changes no faster than a pivot moves; corners of an edge that moves with the platform have no such bound.
@@ -324,7 +346,7 @@ impl Reach {
         if cuts.len() == 1 {
             return slack(cuts[0]);
         }
-        let mut best = Slack { value: if greatest { f64::NEG_INFINITY } else { f64::INFINITY }, binding: None };
+        let mut best = Slack { value: if greatest { f64::NEG_INFINITY } else { f64::INFINITY }, ..Slack::NONE };
         if !moving {
             best = steady
                 .iter()
@@ -333,7 +355,7 @@ impl Reach {
                 .unwrap_or(best);
         }
         for (bound, k) in order {
-            if (greatest || !moving) && !better(&Slack { value: bound, binding: None }, &best) {
+            if (greatest || !moving) && !better(&Slack { value: bound, ..Slack::NONE }, &best) {
                 continue;
             }
             let ends = [k, k + 1].map(|k| *values[k].get_or_insert_with(|| slack(cuts[k])));
@@ -350,7 +372,7 @@ impl Reach {
             let found = if moving {
                 moving_peak(&slack, [cuts[k], cuts[k + 1]], ends, greatest)
             } else {
-                section_search(&slack, cuts[k], cuts[k + 1], greatest)
+                sloped_peak(&slack, [cuts[k], cuts[k + 1]], ends, greatest)
             };
             if better(&found, &best) {
                 best = found;
@@ -358,6 +380,49 @@ impl Reach {
         }
         best
     }
+}
+
+/// The peak (or the valley) between two events, where the slope changes its sign: by where the tangents of both sides meet, and by halving where that gains little.
+fn sloped_peak(f: &dyn Fn(f64) -> Slack, [from, to]: [f64; 2], ends: [Slack; 2], greatest: bool) -> Slack {
+    /// To this share of the interval, as the section search.
+    const SHARE: f64 = 1e-12;
+    /// Steps without half of the interval gone before it is halved: two tangents that meet well take one side and then the other.
+    const PATIENCE: usize = 2;
+    let sense = if greatest { 1.0 } else { -1.0 };
+    let least = SHARE * (to - from);
+    let ([mut a, mut b], [mut left, mut right]) = ([from, to], ends);
+    let mut best = if sense * left.value > sense * right.value { left } else { right };
+    let (mut width, mut steps) = (b - a, 0);
+    while b - a > 2.0 * least {
+        let (rise, fall) = (sense * left.slope, sense * right.slope);
+        let meeting = (sense * (right.value - left.value) - fall * (b - a)) / (rise - fall);
+        let meets = rise > 0.0 && fall < 0.0 && (-least..=b - a + least).contains(&meeting);
+        let step = if meets && steps < PATIENCE { meeting.clamp(least, b - a - least) } else { 0.5 * (b - a) };
+        let found = f(a + step);
+        if sense * found.value > sense * best.value {
+            best = found;
+        }
+        if sense * found.slope > 0.0 {
+            (a, left) = (a + step, found);
+        } else if sense * found.slope < 0.0 {
+            (b, right) = (a + step, found);
+        } else if found.slope == 0.0 {
+            return best;
+        } else {
+            // On the edge itself there is no slope.
+            let found = section_search(f, a, b, greatest);
+            return if sense * found.value > sense * best.value { found } else { best };
+        }
+        steps += 1;
+        if b - a <= 0.5 * width {
+            (width, steps) = (b - a, 0);
+        }
+        // What no arguments lie between is found.
+        if !(a + least > a && b - least < b) {
+            break;
+        }
+    }
+    best
 }
 
 /// The peak (or the valley) between two events of a function that may be another one at the events themselves, as where a part of what a leg allows has just shrunk away.

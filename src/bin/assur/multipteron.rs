@@ -3,10 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use assur::exchange::{MultipteronFile, multipteron_forward_json, multipteron_inverse_json};
+use assur::TripodPose;
 use assur::nalgebra::Vector3;
+use assur::plot::draw_multipteron_poses;
 use clap::Subcommand;
 
-use crate::output::{self, Failure};
+use crate::args::Shown;
+use crate::output::{self, Failure, Files};
 use crate::tables::{POSE_DIGITS, SIDE_DIGITS, STRONG, digits, heading, line};
 
 /// What can be asked of a Multipteron.
@@ -20,9 +23,8 @@ pub(crate) enum MultipteronCommand {
         /// The slider positions.
         #[arg(long, value_name = "R1,R2,...", value_delimiter = ',', required = true, allow_hyphen_values = true)]
         inputs: Vec<f64>,
-        /// Prints one JSON document.
-        #[arg(long)]
-        json: bool,
+        #[command(flatten)]
+        shown: Shown,
     },
     /// Slider positions for a pose.
     #[command(after_help = "Example:  assur multipteron inverse examples/hexapteron.toml --pose=20,-10,30,5,0,10")]
@@ -32,16 +34,15 @@ pub(crate) enum MultipteronCommand {
         /// The place and a rotation vector, in the model file's unit; or the place alone.
         #[arg(long, value_name = "X,Y,Z[,A,B,C]", value_delimiter = ',', required = true, allow_hyphen_values = true)]
         pose: Vec<f64>,
-        /// Prints one JSON document.
-        #[arg(long)]
-        json: bool,
+        #[command(flatten)]
+        shown: Shown,
     },
 }
 
 pub(crate) fn multipteron(command: MultipteronCommand) -> Result<(), Failure> {
     match command {
-        MultipteronCommand::Forward { model, inputs, json } => forward(&model, &inputs, json),
-        MultipteronCommand::Inverse { model, pose, json } => inverse(&model, &pose, json),
+        MultipteronCommand::Forward { model, inputs, shown } => forward(&model, &inputs, &shown),
+        MultipteronCommand::Inverse { model, pose, shown } => inverse(&model, &pose, &shown),
     }
 }
 
@@ -51,14 +52,21 @@ fn about(file: &Path, error: impl std::fmt::Display) -> Failure {
 
 fn titled(model: &MultipteronFile) -> String {
     let mut text = String::new();
-    heading(&mut text, if model.name.is_empty() { model.robot.name() } else { &model.name });
+    heading(&mut text, model.title());
     text
 }
 
-fn forward(file: &Path, inputs: &[f64], json: bool) -> Result<(), Failure> {
+fn drawn(model: &MultipteronFile, poses: &[(String, TripodPose)], shown: &Shown) -> Result<(), Failure> {
+    let draw = || draw_multipteron_poses(model.title(), &model.robot, poses);
+    Files::default().with_pictures(shown.svg.as_deref(), shown.png.as_deref(), draw)?.write()
+}
+
+fn forward(file: &Path, inputs: &[f64], shown: &Shown) -> Result<(), Failure> {
     let model = MultipteronFile::read(file)?;
     let answer = model.robot.forward(inputs).map_err(|error| about(file, error))?;
-    if json {
+    let numbered = (1..).zip(&answer.poses).map(|(number, &pose): (usize, _)| (format!("mode {number}"), pose));
+    drawn(&model, &numbered.collect::<Vec<_>>(), shown)?;
+    if shown.json {
         return output::print(&multipteron_forward_json(&model.robot, inputs, &answer));
     }
     let mut text = titled(&model);
@@ -80,7 +88,7 @@ fn forward(file: &Path, inputs: &[f64], json: bool) -> Result<(), Failure> {
     output::print(&text)
 }
 
-fn inverse(file: &Path, pose: &[f64], json: bool) -> Result<(), Failure> {
+fn inverse(file: &Path, pose: &[f64], shown: &Shown) -> Result<(), Failure> {
     let model = MultipteronFile::read(file)?;
     let (place, turn) = match *pose {
         [x, y, z] => (Vector3::new(x, y, z), Vector3::zeros()),
@@ -90,7 +98,8 @@ fn inverse(file: &Path, pose: &[f64], json: bool) -> Result<(), Failure> {
         _ => return Err(about(file, format!("pose: {} given, must be 3 or 6", pose.len()))),
     };
     let inputs = model.robot.inverse(&place, &turn).map_err(|error| about(file, error))?;
-    if json {
+    drawn(&model, &[(String::new(), TripodPose::new(place, turn))], shown)?;
+    if shown.json {
         return output::print(&multipteron_inverse_json(&model.robot, &place, &turn, &inputs));
     }
     let mut text = titled(&model);

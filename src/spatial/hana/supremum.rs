@@ -57,14 +57,16 @@ impl Hana {
             return Ok(None);
         }
         let robot = Self { strokes: [common, common, third], ..self.clone() };
-        if robot.workspace(0.0, mode)?.loops.is_empty() {
-            return Ok(None);
-        }
-        Ok(robot.bounded_supremum(mode))
+        let level = robot.workspace(0.0, mode)?;
+        // Halving alone may miss a workspace that is narrow in y.
+        let mut corners: Vec<f64> = level.loops.iter().flat_map(|(_, arcs)| arcs).map(|arc| arc.start[0]).collect();
+        corners.sort_by(f64::total_cmp);
+        let between = corners.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
+        Ok(if corners.is_empty() { None } else { robot.bounded_supremum(mode, between) })
     }
 
-    /// With equal strokes of legs 1 and 2.
-    fn bounded_supremum(&self, mode: HanaMode) -> Option<CapabilitySupremum> {
+    /// With equal strokes of legs 1 and 2; `first` are places along `y` to begin with.
+    fn bounded_supremum(&self, mode: HanaMode, first: impl Iterator<Item = f64>) -> Option<CapabilitySupremum> {
         let ceiling = Ceiling::new(self, mode);
         let mut best: Option<CapabilitySupremum> = None;
         let offer = |y: f64, best: &mut Option<CapabilitySupremum>| {
@@ -75,7 +77,7 @@ impl Hana {
             }
         };
         let ends = ceiling.ends();
-        ends.iter().for_each(|&y| offer(y, &mut best));
+        ends.iter().copied().chain(first).for_each(|y| offer(y, &mut best));
         let mut open: BinaryHeap<Range> =
             ends.windows(2).filter_map(|pair| ceiling.bound([pair[0], pair[1]])).collect();
         // What ranges that are not halved any more may hold.

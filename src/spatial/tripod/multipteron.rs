@@ -168,6 +168,22 @@ impl Multipteron {
         }
     }
 
+    /// The direction of each leg's slider, of length 1, and the point of the platform, in its frame, that the leg holds.
+    ///
+    /// ```
+    /// use assur::{Multipteron, nalgebra::Vector3};
+    /// let robot = Multipteron::new("tripteron", &[Vector3::x(), Vector3::y(), Vector3::z() * 2.0], &[], None)?;
+    /// assert_eq!(robot.legs()[2], (Vector3::z(), Vector3::zeros()));
+    /// # Ok::<(), assur::MultipteronError>(())
+    /// ```
+    pub fn legs(&self) -> Vec<(Vector3<f64>, Vector3<f64>)> {
+        match self {
+            Self::Tripteron(robot) => robot.directions.iter().map(|&e| (e, Vector3::zeros())).collect(),
+            Self::Quadrupteron(robot) => robot.directions.iter().copied().zip(robot.points).collect(),
+            Self::Hexapteron(robot) => (0..6).map(|k| (robot.directions[k / 2], robot.points[k])).collect(),
+        }
+    }
+
     /// How many poses slider positions can have: 1, 2, 8.
     pub fn degree(&self) -> usize {
         match self {
