@@ -168,18 +168,21 @@ fn bad_questions_are_refused_by_name() {
     assert!(refused(&["tripod", "inverse", &tripod, "--pose=0,0"]).contains("pose: 2 given, must be 6"));
 }
 
+/// The picture that a command draws into a folder.
+fn drawn(arguments: &[&str], folder: &Path, name: &str) -> String {
+    let picture = folder.join(name);
+    let picture = picture.to_str().expect("plain");
+    text(&[arguments, &["--svg", picture]].concat());
+    let svg = std::fs::read_to_string(picture).expect("is written");
+    assert!(svg.contains("</svg>") && !svg.contains("NaN") && !svg.contains("inf"), "{name}");
+    svg
+}
+
 #[test]
 fn robots_are_drawn_and_checked_and_determinants_are_curves() {
     let (hana, tripod) = (model("hana.toml"), model("tripod-cartesian.toml"));
     let folder = folder("robots");
-    let drawn = |arguments: &[&str], name: &str| {
-        let picture = folder.join(name);
-        let picture = picture.to_str().expect("plain");
-        text(&[arguments, &["--svg", picture]].concat());
-        let svg = std::fs::read_to_string(picture).expect("is written");
-        assert!(svg.contains("</svg>") && !svg.contains("NaN") && !svg.contains("inf"), "{name}");
-        svg
-    };
+    let drawn = |arguments: &[&str], name: &str| drawn(arguments, &folder, name);
     let modes = drawn(&["hana", "forward", &hana, "--inputs=1,-0.5,0.3"], "modes.svg");
     assert_eq!(modes.matches(", phi = ").count(), 4);
     drawn(&["hana", "inverse", &hana, "--pose=-2,-12,0.4"], "ways.svg");
@@ -208,6 +211,7 @@ fn robots_are_drawn_and_checked_and_determinants_are_curves() {
 
 #[test]
 fn multipterons_from_files() {
+    let folder = folder("multipterons");
     for (file, pose, count) in [
         ("tripteron.toml", "--pose=1,2,3", 1),
         ("quadrupteron.toml", "--pose=0.2,-0.1,0.4,0,0,30", 2),
@@ -229,12 +233,12 @@ fn multipterons_from_files() {
                 .any(|mode| { place(&mode["pose"]["position"]).iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-9) })
         );
         assert!(text(&["multipteron", "forward", &file, &inputs]).contains("degree"));
-        let picture = drawn(&["multipteron", "forward", &file, &inputs], "multipteron.svg");
+        let picture = drawn(&["multipteron", "forward", &file, &inputs], &folder, "modes.svg");
         assert_eq!(picture.matches("mode ").count(), count);
-        assert!(drawn(&["multipteron", "inverse", &file, pose], "multipteron-pose.svg").contains("stroke-dasharray"));
+        assert!(drawn(&["multipteron", "inverse", &file, pose], &folder, "pose.svg").contains("stroke-dasharray"));
         assert_eq!(json(&["check", &file, "--json"])["degree_bound"].as_u64(), Some(count as u64));
     }
-    let path = folder("multipterons").join("five.toml");
+    let path = folder.join("five.toml");
     std::fs::write(&path, "schema = \"assur/multipteron/1\"\nkind = \"pentapteron\"\ndirections = []")
         .expect("is written");
     let path = path.to_str().expect("plain");

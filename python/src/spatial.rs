@@ -448,8 +448,7 @@ impl MultipteronModel {
         let (place, turn) = (Vector3::from(place), Vector3::from(turn));
         Ok(py.detach(|| {
             let inputs = self.file.robot.inverse(&place, &turn).map_err(asked)?;
-            let (json, file) =
-                (multipteron_inverse_json(&self.file.robot, &place, &turn, &inputs), self.file.clone());
+            let (json, file) = (multipteron_inverse_json(&self.file.robot, &place, &turn, &inputs), self.file.clone());
             let poses = [(String::new(), TripodPose::new(place, turn))];
             let draw = move || assur::plot::draw_multipteron_poses(file.title(), &file.robot, &poses);
             Ok::<_, Refused>(Answer::drawn(json, draw))

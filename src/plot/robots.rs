@@ -174,7 +174,8 @@ pub fn draw_multipteron_poses(title: &str, robot: &Multipteron, poses: &[(String
     let rails: Vec<Vector3<f64>> = legs
         .iter()
         .map(|(e, point)| {
-            let mean = poses.iter().map(|(_, pose)| held(pose, point)).sum::<Vector3<f64>>() / poses.len().max(1) as f64;
+            let mean =
+                poses.iter().map(|(_, pose)| held(pose, point)).sum::<Vector3<f64>>() / poses.len().max(1) as f64;
             let across = |v: Vector3<f64>| v - e * e.dot(&v);
             let other = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| e.cross(&axis));
             let outwards = [across(mean - middle), across(-middle)].into_iter().chain(other);

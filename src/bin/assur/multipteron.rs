@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use assur::exchange::{MultipteronFile, multipteron_forward_json, multipteron_inverse_json};
 use assur::TripodPose;
+use assur::exchange::{MultipteronFile, multipteron_forward_json, multipteron_inverse_json};
 use assur::nalgebra::Vector3;
 use assur::plot::draw_multipteron_poses;
 use clap::Subcommand;
