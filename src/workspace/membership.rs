@@ -382,7 +382,7 @@ impl Reach {
     }
 }
 
-/// The peak (or the valley) between two events, where the slope changes its sign: by where the tangents of both sides meet, and by halving where that gains little.
+/// The peak (or the valley) between two events, or at one of them, where the slope changes its sign: by where the tangents of both sides meet, and by halving where that gains little.
 fn sloped_peak(f: &dyn Fn(f64) -> Slack, [from, to]: [f64; 2], ends: [Slack; 2], greatest: bool) -> Slack {
     /// To this share of the interval, as the section search.
     const SHARE: f64 = 1e-12;
@@ -390,8 +390,14 @@ fn sloped_peak(f: &dyn Fn(f64) -> Slack, [from, to]: [f64; 2], ends: [Slack; 2],
     const PATIENCE: usize = 2;
     let sense = if greatest { 1.0 } else { -1.0 };
     let least = SHARE * (to - from);
-    let ([mut a, mut b], [mut left, mut right]) = ([from, to], ends);
-    let mut best = if sense * left.value > sense * right.value { left } else { right };
+    // At the ends themselves the slopes may be those beyond.
+    let [mut a, mut b] = [from + least, to - least];
+    let [mut left, mut right] = [f(a), f(b)];
+    let [first, last] = ends;
+    let mut best = if sense * first.value > sense * last.value { first } else { last };
+    if sense * left.slope <= 0.0 || sense * right.slope >= 0.0 {
+        return best;
+    }
     let (mut width, mut steps) = (b - a, 0);
     while b - a > 2.0 * least {
         let (rise, fall) = (sense * left.slope, sense * right.slope);
