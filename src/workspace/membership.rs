@@ -192,11 +192,9 @@ impl LegReach {
     fn slack(&self, at: Vector2<f64>, turn: Vector2<f64>, fixed: &[Edge], size: f64) -> Slack {
         let arm = product(turn, self.b);
         let moves = Vector2::new(-arm.y, arm.x);
-        if let Some([low, high]) = self.ring {
-            let leg = at + arm - self.a;
-            let d = leg.norm();
-            let short = if low > 0.0 { d - low } else { f64::INFINITY };
-            return self.ring_slack(short, high - d, leg.dot(&moves) / d);
+        if self.ring.is_some() {
+            let [beyond, within] = self.ring_slacks(at, turn);
+            return if beyond.value < within.value { beyond } else { within };
         }
         let moved;
         let (edges, place) = if self.platform_sector.is_some() {
@@ -222,16 +220,37 @@ impl LegReach {
         }
     }
 
-    /// The slack of a ring from how far the pivots are beyond its inner and within its outer radius, and how fast they part.
-    fn ring_slack(&self, beyond: f64, within: f64, parting: f64) -> Slack {
-        let (value, slope) = if beyond < within { (beyond, parting) } else { (within, -parting) };
-        let which = |radius: f64| {
-            let is = |limit: &&Limit| matches!(limit.dyad, Dyad::RR { length, .. } if length == radius);
-            self.limits.iter().find(is).map(Limit::active)
-        };
+    /// The leg's slack at a pose as the lesser of two: what grows as the platform turns on, and what falls. Between events each keeps doing so.
+    fn sides(&self, at: Vector2<f64>, turn: Vector2<f64>, fixed: &[Edge], size: f64) -> [Slack; 2] {
+        let side = |slack: Slack| if slack.slope >= 0.0 { [slack, Slack::NONE] } else { [Slack::NONE, slack] };
+        if self.ring.is_some() {
+            return self.ring_slacks(at, turn).map(side).into_iter().fold([Slack::NONE; 2], lesser_of_each);
+        }
+        if self.platform_sector.is_some() || !self.allows_pose(at, turn, 0.0) {
+            return side(self.slack(at, turn, fixed, size));
+        }
+        let arm = product(turn, self.b);
+        let (place, moves) = (at + arm - self.b, Vector2::new(-arm.y, arm.x));
+        let pieces = fixed.iter().map(|edge| {
+            let (value, away) = edge.distance(place);
+            side(Slack { value, slope: away.dot(&moves), binding: Some(edge.active) })
+        });
+        pieces.fold([Slack::NONE; 2], lesser_of_each)
+    }
+
+    /// How far the pivots of a ring are beyond its inner radius, and within its outer one.
+    fn ring_slacks(&self, at: Vector2<f64>, turn: Vector2<f64>) -> [Slack; 2] {
         let [low, high] = self.ring.unwrap_or_default();
-        let binding = if value.is_infinite() { None } else { which(if beyond < within { low } else { high }) };
-        Slack { value, slope, binding }
+        let arm = product(turn, self.b);
+        let leg = at + arm - self.a;
+        let d = leg.norm();
+        let parting = leg.dot(&Vector2::new(-arm.y, arm.x)) / d;
+        let of = |value: f64, slope: f64, radius: f64| {
+            let is = |limit: &&Limit| matches!(limit.dyad, Dyad::RR { length, .. } if length == radius);
+            let limit = if value.is_infinite() { None } else { self.limits.iter().find(is) };
+            Slack { value, slope, binding: limit.map(Limit::active) }
+        };
+        [of(if low > 0.0 { d - low } else { f64::INFINITY }, parting, low), of(high - d, -parting, high)]
     }
 
     /// Orientations between which the leg's slack has one peak.
@@ -327,6 +346,11 @@ impl Reach {
             slacks.min_by(|a, b| a.value.total_cmp(&b.value)).unwrap_or(Slack::NONE)
         };
         let slack = |cut: f64| slack_of(cut, &|_| true);
+        let sides = |cut: f64| {
+            let turn = direction(range.from + cut);
+            let each = each().map(|(leg, fixed)| leg.sides(at, turn, fixed, self.size));
+            each.fold([Slack::NONE; 2], lesser_of_each)
+        };
         // The slack of legs whose edges stand changes no faster than a pivot moves; corners of an edge that moves with the platform have no such bound.
         let stands = |leg: &LegReach| leg.platform_sector.is_none();
         let speed = each().filter(|(leg, _)| stands(leg)).map(|(leg, _)| leg.b.norm()).fold(0.0, f64::max);
@@ -369,10 +393,11 @@ impl Reach {
             if !greatest && ends.iter().all(inside) && (!moving || inside(&slack(0.5 * (cuts[k] + cuts[k + 1])))) {
                 continue;
             }
-            let found = if moving {
-                moving_peak(&slack, [cuts[k], cuts[k + 1]], ends, greatest)
-            } else {
-                sloped_peak(&slack, [cuts[k], cuts[k + 1]], ends, greatest)
+            let stretch = [cuts[k], cuts[k + 1]];
+            let found = match (moving, greatest) {
+                (true, _) => moving_peak(&slack, stretch, ends, greatest),
+                (false, true) => crossing_peak(&sides, stretch, ends, self.size),
+                (false, false) => valley(&slack, stretch, ends),
             };
             if better(&found, &best) {
                 best = found;
@@ -382,53 +407,57 @@ impl Reach {
     }
 }
 
-/// The peak (or the valley) between two events, or at one of them, where the slope changes its sign: by where the tangents of both sides meet, and by halving where that gains little.
-fn sloped_peak(f: &dyn Fn(f64) -> Slack, [from, to]: [f64; 2], ends: [Slack; 2], greatest: bool) -> Slack {
-    /// To this share of the interval, as the section search.
-    const SHARE: f64 = 1e-12;
-    /// Steps without half of the interval gone before it is halved: two tangents that meet well take one side and then the other.
-    const PATIENCE: usize = 2;
-    let sense = if greatest { 1.0 } else { -1.0 };
-    let least = SHARE * (to - from);
-    // At the ends themselves the slopes may be those beyond.
+fn lesser_of_each(one: [Slack; 2], other: [Slack; 2]) -> [Slack; 2] {
+    [0, 1].map(|k| if other[k].value < one[k].value { other[k] } else { one[k] })
+}
+
+/// So much of a stretch inside its ends it is asked where a slack goes: at the ends themselves its slope may be that beyond.
+const JUST_INSIDE: f64 = 1e-12;
+
+/// The peak between two events of the lesser of a slack that grows and one that falls: where they cross, by Newton's method within bounds, or at an end.
+fn crossing_peak(sides: &dyn Fn(f64) -> [Slack; 2], [from, to]: [f64; 2], ends: [Slack; 2], size: f64) -> Slack {
+    /// Steps; half of the stretch goes with each that Newton's method does not take.
+    const STEPS: usize = 60;
+    let same = 4.0 * f64::EPSILON * size;
+    let least = JUST_INSIDE * (to - from);
     let [mut a, mut b] = [from + least, to - least];
-    let [mut left, mut right] = [f(a), f(b)];
-    let [first, last] = ends;
-    let mut best = if sense * first.value > sense * last.value { first } else { last };
-    if sense * left.slope <= 0.0 || sense * right.slope >= 0.0 {
+    let gap = |[grows, falls]: &[Slack; 2]| falls.value - grows.value;
+    let lesser = |[grows, falls]: [Slack; 2]| if falls.value < grows.value { falls } else { grows };
+    let higher = |one: Slack, other: Slack| if other.value > one.value { other } else { one };
+    let mut best = higher(ends[0], ends[1]);
+    let [left, right] = [sides(a), sides(b)];
+    if gap(&left) <= 0.0 || gap(&right) >= 0.0 {
         return best;
     }
-    let (mut width, mut steps) = (b - a, 0);
-    while b - a > 2.0 * least {
-        let (rise, fall) = (sense * left.slope, sense * right.slope);
-        let meeting = (sense * (right.value - left.value) - fall * (b - a)) / (rise - fall);
-        let meets = rise > 0.0 && fall < 0.0 && (-least..=b - a + least).contains(&meeting);
-        let step = if meets && steps < PATIENCE { meeting.clamp(least, b - a - least) } else { 0.5 * (b - a) };
-        let found = f(a + step);
-        if sense * found.value > sense * best.value {
-            best = found;
-        }
-        if sense * found.slope > 0.0 {
-            (a, left) = (a + step, found);
-        } else if sense * found.slope < 0.0 {
-            (b, right) = (a + step, found);
-        } else if found.slope == 0.0 {
-            return best;
-        } else {
-            // On the edge itself there is no slope.
-            let found = section_search(f, a, b, greatest);
-            return if sense * found.value > sense * best.value { found } else { best };
-        }
-        steps += 1;
-        if b - a <= 0.5 * width {
-            (width, steps) = (b - a, 0);
-        }
-        // What no arguments lie between is found.
-        if !(a + least > a && b - least < b) {
+    let mut now = left;
+    let mut x = a;
+    for _ in 0..STEPS {
+        let newton = x - gap(&now) / (now[1].slope - now[0].slope);
+        let next = if newton > a && newton < b { newton } else { 0.5 * (a + b) };
+        if next <= a || next >= b {
             break;
+        }
+        (x, now) = (next, sides(next));
+        best = higher(best, lesser(now));
+        if gap(&now).abs() <= same {
+            break;
+        }
+        if gap(&now) > 0.0 {
+            a = x;
+        } else {
+            b = x;
         }
     }
     best
+}
+
+/// The valley between two events, where the slope changes its sign, or the lesser end.
+fn valley(f: &dyn Fn(f64) -> Slack, [from, to]: [f64; 2], ends: [Slack; 2]) -> Slack {
+    let least = JUST_INSIDE * (to - from);
+    let lower = |one: Slack, other: Slack| if other.value < one.value { other } else { one };
+    let best = lower(ends[0], ends[1]);
+    let [a, b] = [from + least, to - least];
+    if f(a).slope >= 0.0 || f(b).slope <= 0.0 { best } else { lower(best, section_search(f, a, b, false)) }
 }
 
 /// The peak (or the valley) between two events of a function that may be another one at the events themselves, as where a part of what a leg allows has just shrunk away.
