@@ -64,6 +64,10 @@ pub(crate) fn workspace(robot: &Manipulator, question: WorkspaceQuestion, pose: 
         Isolated::Curve(arc) => Some(curve_points(arc)),
         Isolated::Point { .. } => None,
     };
+    let point = |isolated: &Isolated| match isolated {
+        Isolated::Point { at, .. } => Some(grid.point(*at)),
+        Isolated::Curve(_) => None,
+    };
     let separating = found.separating.iter().map(curve_points);
     json!({
         "kind": kind.name(),
@@ -73,6 +77,8 @@ pub(crate) fn workspace(robot: &Manipulator, question: WorkspaceQuestion, pose: 
         "holes": region.holes,
         "loops": region.loops.iter().map(|one| outline(&one.arcs)).collect::<Vec<_>>(),
         "separating": separating.chain(region.isolated.iter().filter_map(curve)).collect::<Vec<_>>(),
+        "isolated": region.isolated.iter().filter_map(point).collect::<Vec<_>>(),
+        "unclosed": region.unclosed.len(),
     })
 }
 
