@@ -380,6 +380,25 @@ fn angles_are_given_within_their_range() {
     assert_eq!(turns(0).0, turns(0).1);
 }
 
+/// A workspace that takes too long for a step of a drag is asked for by itself, and is the same.
+#[test]
+fn a_workspace_by_itself_is_that_of_a_pull() {
+    let explorer = Explorer::start(&["examples/workspaces/five-kinds.toml"]);
+    let mut talk = explorer.converse();
+    let (model, inputs) = talk.start();
+    for workspace in [json!({ "kind": "maximal" }), json!({ "kind": "constant" })] {
+        let mut ask = json!({ "model": model, "inputs": inputs, "mode": null, "pick": true, "workspace": workspace });
+        let moved = talk.ask("move", ask.clone())["answer"].clone();
+        let mode = &moved["report"]["modes"][moved["current"].as_u64().expect("a mode is held") as usize];
+        ask["pose"] = mode["pose"].clone();
+        let alone = talk.ask("workspace", ask)["answer"].clone();
+        assert!(alone["area"].as_f64().is_some_and(|area| area > 1.0), "{alone}");
+        for name in ["kind", "area", "loops", "isolated", "unclosed"] {
+            assert_eq!(alone[name], moved["workspace"][name], "{workspace}: {name}");
+        }
+    }
+}
+
 #[test]
 fn middle_sliders_are_pulled() {
     let explorer = Explorer::start(&[]);

@@ -1,5 +1,7 @@
 // Undo, redo, and the state in the address, so that a link shows the same mechanism.
 
+import { WORKSPACES } from "./manipulator.js";
+
 /** @typedef {import("./types.js").State} State @typedef {"undo" | "redo"} Way */
 /** @typedef {{ state: State, fresh: boolean }} Step A state, and whether it began anew: from a file, a family or another page. */
 
@@ -87,6 +89,6 @@ function isState(state) {
   if (page === "four_bar") return table(file) && table(place) && Number.isInteger(place.circuit) && place.circuit >= 0 && Number.isFinite(place.tau);
   return page === "manipulator" && table(model) && Array.isArray(inputs) && numbers(inputs, inputs.length)
     && (mode === null || (table(mode) && numbers(mode.pose, 3) && typeof mode.signs === "string"))
-    && table(workspace) && typeof workspace.kind === "string" && numbers([workspace.from, workspace.to], 2) && typeof loci === "boolean"
+    && table(workspace) && WORKSPACES.some(([kind]) => kind === workspace.kind) && numbers([workspace.from, workspace.to], 2) && typeof loci === "boolean"
     && ["0,1", "0,2", "1,2"].includes(String(pair));
 }

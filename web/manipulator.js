@@ -1,7 +1,7 @@
 // The page of manipulators: all assembly modes of one, and what can be pulled.
 
 import { Circle } from "./circle.js";
-import { Refused } from "./connection.js";
+import { Refused, Unanswered } from "./connection.js";
 import { Page } from "./page.js";
 import { Cells, Facts, NumberField, Rows, button, choice, onSlide, panel } from "./panels.js";
 import { Plane } from "./plane.js";
@@ -28,6 +28,8 @@ const CELLS = { still: 160, moving: 48 };
 /** Slow questions while something is pulled come no more often than this, in milliseconds. */
 const SLOW_PAUSE = 180;
 
+/** A workspace that takes longer than this, in milliseconds, is asked for beside a drag and not with each of its steps. */
+const QUICK_REGION = 40;
 /** The panels while something is pulled change no more often than this, in milliseconds. */
 const PANEL_PAUSE = 80;
 
@@ -44,7 +46,7 @@ const EVENTS = /** @type {Record<string, string>} */ ({
   stopped: "A limit, or the end of a leg's reach.",
 });
 
-const WORKSPACES = /** @type {[string, string][]} */ ([
+export const WORKSPACES = /** @type {[string, string][]} */ ([
   ["", "none"], ["constant", "this orientation"], ["maximal", "maximal"], ["inclusive", "inclusive"], ["total", "total"], ["dextrous", "dextrous"],
 ]);
 
@@ -62,6 +64,8 @@ export class ManipulatorPage extends Page {
     /** @type {Region | null} */
     this.region = null;
     this.regionError = "";
+    /** What the last workspace of this kind took, in milliseconds. */
+    this.regionTime = Infinity;
     this.provedKey = "";
     /** @type {import("./types.js").Loci | null} */
     this.loci = null;
@@ -96,6 +100,8 @@ export class ManipulatorPage extends Page {
     this.pairs.value = this.state.pair.join(",");
     this.kind = choice(WORKSPACES, (kind) => {
       this.state.workspace.kind = kind;
+      this.takeRegion(null, "");
+      this.regionTime = Infinity;
       this.do({ book: true });
     }, "Kind of workspace");
     this.kind.id = "workspace";
@@ -149,8 +155,9 @@ export class ManipulatorPage extends Page {
     const { pull = null, pick = false } = wish;
     const from = this.start(wish);
     const { model, inputs, mode } = from;
+    const workspace = this.regionTime <= QUICK_REGION ? this.workspaceWish() : null;
     /** @type {Moved} */
-    const answer = await this.app.connection.ask("move", { model, inputs, mode, pick, pull, workspace: this.workspaceWish() });
+    const answer = await this.app.connection.ask("move", { model, inputs, mode, pick, pull, workspace });
     this.pulled = wish.key ?? "";
     this.take(answer, from);
     return changesLimits(pull) && answer.inputs.some((q, k) => !same(q, inputs[k], answer.actuators[k].angle)) ? "An actuator stood outside its new limits and has moved to their end." : "";
@@ -171,9 +178,25 @@ export class ManipulatorPage extends Page {
     const mode = current ? { pose: current.pose, signs: current.signs ?? "" } : null;
     Object.assign(this.state, { model: answer.model, inputs: answer.inputs, mode });
     this.anchor = mode ? this.present() : from;
-    const { workspace } = answer;
+    if (answer.workspace) this.takeRegion(answer.workspace, "");
+    // One of another mechanism is not shown.
+    else if (!this.state.workspace.kind || this.regionKey !== this.regionAbout()) this.takeRegion(null, "");
+  }
+
+  /** @param {Region | { error: string } | null} workspace @param {string} key what it is of, where it was asked for by itself */
+  takeRegion(workspace, key) {
+    this.regionKey = key;
     this.region = workspace && !("error" in workspace) ? workspace : null;
     this.regionError = workspace && "error" in workspace ? workspace.error : "";
+    if (workspace) this.regionTime = (this.region?.micros ?? 0) / 1000;
+  }
+
+  regionKey = "";
+
+  /** What a workspace depends on. */
+  regionAbout() {
+    const { model, mode, workspace } = this.state;
+    return JSON.stringify([model, workspace, workspace.kind === "constant" ? mode?.pose[2] : null]);
   }
 
   tell() {
@@ -246,8 +269,31 @@ export class ManipulatorPage extends Page {
       this.loci = loci;
       this.app.schedule();
     }
+    await this.askRegion();
     // What changed meanwhile asks again by itself; at rest the map is asked for in full.
     if (this.shown && !this.pulling && size === CELLS.moving) this.slow.push(null);
+  }
+
+  /** A workspace that is not asked for with each move. */
+  async askRegion() {
+    const wish = this.workspaceWish();
+    if (!this.shown || !wish || this.region || this.regionError) return;
+    const about = this.regionAbout();
+    const { model, mode } = this.state;
+    /** @type {Region | { error: string }} */
+    let region;
+    try {
+      region = await this.app.connection.ask("workspace", { model, pose: mode?.pose, workspace: wish });
+    } catch (error) {
+      // Without a server there is none yet; refused, there is a reason.
+      if (error instanceof Unanswered) return;
+      if (!(error instanceof Refused)) throw error;
+      region = { error: error.message };
+    }
+    if (!this.answer || about !== this.regionAbout()) return;
+    this.answer.workspace = region;
+    this.takeRegion(region, about);
+    if (this.shown) this.app.schedule();
   }
 
   /** The answer where it may have changed; undefined where it has not, null where there is none. @param {string} kind @param {unknown} about @param {object} question */
@@ -419,10 +465,11 @@ export class ManipulatorPage extends Page {
     const alone = region ? region.isolated.length : 0;
     const points = `${alone} single point${alone === 1 ? "" : "s"}`;
     const empty = alone ? `No area, ${points}.` : "Empty: no place is reached so.";
-    const word = !kind ? "" : !region ? this.regionError
+    const word = !kind ? "" : !region ? this.regionError || "computing …"
       : region.unclosed > 0 ? "Undecided: the digits do not suffice to close its boundary, so the numbers lack a part."
       : region.loops.length === 0 ? (region.separating.length ? "No area, lines only." : empty) : alone ? `And ${points}.` : "";
     write(this.regionWord, word);
+    set(this.regionWord, "class", this.regionError || region?.unclosed ? "tag bad" : "tag");
     this.regionWord.hidden = word === "";
     this.bound.hidden = !kind || !this.regionError || answer.actuators.every((actuator) => actuator.limited);
   }

@@ -15,7 +15,7 @@
  * @typedef {{ schema: string, name?: string, angle_unit?: string, leg: unknown[] }} Model
  * @typedef {{ pose: Pose, signs: string }} Held
  * @typedef {{ curve?: string, points: Point[] }} Arc
- * @typedef {{ kind: string, area: number, perimeter: number, components: number, holes: number, unclosed: number, loops: Point[][], separating: Point[][], isolated: Point[] }} Region
+ * @typedef {{ kind: string, area: number, perimeter: number, components: number, holes: number, unclosed: number, micros: number, loops: Point[][], separating: Point[][], isolated: Point[] }} Region
  * @typedef {{
  *   model: Model, family: string, inputs: number[], report: ForwardReport, came_from: (number | null)[], ended: Pose[], drawings: Mark[][],
  *   current: number | null, event: Event_ | null, handles: Handle[], actuators: Actuator[], size: number, workspace?: Region | { error: string } | null

@@ -493,6 +493,43 @@ const tests = {
     await settled(page);
   },
 
+  async "a workspace that takes long keeps no drag waiting"(page) {
+    await page.setInputFiles("#file", new URL("../../examples/workspaces/five-kinds.toml", import.meta.url).pathname);
+    await page.waitForFunction(() => globalThis.assur.page.answer?.model?.name === "3-RPR with a small platform");
+    await page.selectOption("#workspace", "maximal");
+    await settled(page);
+    const asked = await page.evaluate(async () => {
+      const { page, connection } = globalThis.assur;
+      const [ask, kinds] = [connection.ask, []];
+      connection.ask = function (kind, question) {
+        kinds.push(kind === "move" ? `move ${question.workspace?.kind ?? "alone"}` : kind);
+        return ask.call(this, kind, question);
+      };
+      const { at } = page.state.model.leg[2].base;
+      const step = async (k) => {
+        page.pull({ handle: "base", leg: 2, to: [at[0] + 0.01 * k, at[1]] });
+        await page.moves.settled();
+      };
+      await step(1);
+      page.regionTime = 1000;
+      await step(2);
+      const without = page.region === null;
+      await page.drop();
+      await page.slow.settled();
+      connection.ask = ask;
+      return { kinds, without, again: page.region !== null, area: page.answer.workspace.area };
+    });
+    assert.deepEqual([asked.without, asked.again], [true, true]);
+    assert.deepEqual(asked.kinds.filter((kind) => /move|workspace/.test(kind)), ["move maximal", "move alone", "workspace"]);
+    const { model } = await state(page);
+    const file = join(folder, "held.json");
+    writeFileSync(file, JSON.stringify(model));
+    const report = JSON.parse(execFileSync(PROGRAM, ["workspace", file, "maximal", "--json"], { encoding: "utf8" }));
+    assert.ok(Math.abs(report.area - asked.area) <= 1e-9 * report.area);
+    await page.selectOption("#workspace", "");
+    await settled(page);
+  },
+
   async "what is refused leaves the page as it is"(page) {
     await startFrom(page, "3-RRR");
     const before = await state(page);

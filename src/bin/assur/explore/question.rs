@@ -10,7 +10,8 @@ use serde_json::{Value, json};
 use super::linkages::{FourBarQuestion, TrussQuestion};
 use super::manipulator::{LociQuestion, MoveQuestion, PlaneQuestion, ProveQuestion};
 use super::start::Start;
-use super::{linkages, manipulator};
+use super::workspace::RegionQuestion;
+use super::{linkages, manipulator, workspace};
 use crate::tables;
 
 /// A question with the number its answer will carry.
@@ -43,6 +44,7 @@ enum Question {
     Prove(ProveQuestion),
     Loci(LociQuestion),
     Plane(PlaneQuestion),
+    Workspace(RegionQuestion),
     FourBar(FourBarQuestion),
     Truss(TrussQuestion),
 }
@@ -62,7 +64,8 @@ impl Envelope {
 
     /// Whether the answer may take longer than a frame.
     pub(crate) fn is_slow(&self) -> bool {
-        matches!(self.question, Question::Prove(_) | Question::Loci(_) | Question::Plane(_))
+        use Question::{Loci, Plane, Prove, Workspace};
+        matches!(self.question, Prove(_) | Loci(_) | Plane(_) | Workspace(_))
     }
 }
 
@@ -83,6 +86,7 @@ pub(crate) fn answer(envelope: Envelope, start: &Start) -> String {
         Question::Prove(question) => manipulator::proved(&question),
         Question::Loci(question) => manipulator::loci(&question),
         Question::Plane(question) => manipulator::plane(&question),
+        Question::Workspace(question) => workspace::region(&question),
         Question::FourBar(question) => linkages::four_bar(&question),
         Question::Truss(question) => linkages::truss(&question),
     };
