@@ -43,6 +43,10 @@ export class App {
     /** Ways from one page to another, and steps of undo: one after the other. */
     this.ways = inOrder((/** @type {() => Promise<unknown>} */ way) => this.go(way));
     this.title = "";
+    /** Why the link that was followed last is not shown. */
+    this.unread = "";
+    /** What the file in the editor is called, for its ending. */
+    this.editing = "model.toml";
     this.timed = 0;
     /** Whether the server has gone. */
     this.gone = false;
@@ -82,8 +86,6 @@ export class App {
       return false;
     }
   }
-
-  unread = "";
 
   /** Leads elsewhere, once what was asked of this page is done. @param {() => Promise<unknown>} way */
   lead(way) {
@@ -260,9 +262,6 @@ export class App {
       this.fail(error);
     }
   }
-
-  /** What the file in the editor is called, by its ending. */
-  editing = "model.toml";
 
   /** Takes the editor's text; it stays open, with all that was typed, until that has succeeded. */
   async apply() {

@@ -64,6 +64,8 @@ export class ManipulatorPage extends Page {
     /** @type {Region | null} */
     this.region = null;
     this.regionError = "";
+    /** What the workspace is of, where it was asked for by itself. */
+    this.regionKey = "";
     /** What the last workspace of this kind took, in milliseconds. */
     this.regionTime = Infinity;
     this.provedKey = "";
@@ -190,8 +192,6 @@ export class ManipulatorPage extends Page {
     this.regionError = workspace && "error" in workspace ? workspace.error : "";
     if (workspace) this.regionTime = (this.region?.micros ?? 0) / 1000;
   }
-
-  regionKey = "";
 
   /** What a workspace depends on. */
   regionAbout() {
@@ -503,10 +503,8 @@ export class ManipulatorPage extends Page {
       const given = this.give({ handle: "limits", number: k, range: free ? null : range.map(value) });
       // With this end the other is answered as well.
       const other = ends[1 - side];
-      given.then(() => other.release(), () => {
-        other.release();
-        other.show(other.shown);
-      });
+      const text = other.element.value;
+      given.then(() => other.answered(text), () => other.answered(text) && other.show(other.shown));
       return given;
     }));
     ends.forEach(({ element }) => Object.assign(element, { title: "Limits; empty both for none", placeholder: "none" }));

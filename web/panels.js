@@ -101,17 +101,20 @@ export class NumberField {
     this.element.addEventListener("change", () => {
       const asked = ask(this.element.valueAsNumber);
       if (asked === "more") return;
-      asked.then(() => this.release(), () => {
-        this.release();
+      const text = this.element.value;
+      asked.then(() => this.answered(text), () => {
+        if (!this.answered(text)) return;
         this.show(this.shown);
         this.element.setAttribute("aria-invalid", "true");
       });
     });
   }
 
-  /** What was typed is answered. */
-  release() {
-    this.typed = false;
+  /** What was asked for is answered; what has been typed since stays. @param {string} text what was asked for @returns {boolean} whether nothing has been typed since */
+  answered(text) {
+    const last = this.element.value === text;
+    if (last) this.typed = false;
+    return last;
   }
 
   /** @param {string} text the number that holds */

@@ -259,6 +259,9 @@ const tests = {
     const canvas = page.locator(".plane-area canvas");
     await canvas.scrollIntoViewIfNeeded();
     const box = await canvas.boundingBox();
+    await page.mouse.click(box.x + 0.5 * box.width, box.y + 0.5 * box.height, { button: "right" });
+    await settled(page);
+    assert.deepEqual((await state(page)).inputs, inputs);
     await page.mouse.click(box.x + 0.5 * box.width, box.y + 0.5 * box.height);
     await settled(page);
     const after = (await state(page)).inputs;
@@ -383,6 +386,27 @@ const tests = {
     await limit("upper").fill("30");
     await limit("upper").press("Enter");
     await settled(page);
+    assert.deepEqual(Object.values((await state(page)).model.leg[0].limits)[0], [5, 30]);
+    // What is typed while another number is asked for stays.
+    const typed = await page.evaluate(async () => {
+      const [lower, upper] = ["lower", "upper"].map((end) => document.querySelector(`[aria-label="Actuator 1, ${end} limit"]`));
+      const type = (field, text) => {
+        field.value = text;
+        field.dispatchEvent(new Event("input"));
+      };
+      type(lower, "6");
+      lower.dispatchEvent(new Event("change"));
+      type(upper, "29");
+      type(lower, "5");
+      await globalThis.assur.page.moves.settled();
+      await new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(go)));
+      const kept = [lower.value, upper.value];
+      type(upper, "30");
+      upper.dispatchEvent(new Event("change"));
+      await globalThis.assur.page.moves.settled();
+      return kept;
+    });
+    assert.deepEqual(typed, ["5", "29"]);
     assert.deepEqual(Object.values((await state(page)).model.leg[0].limits)[0], [5, 30]);
     await limit("lower").fill("31");
     await limit("lower").press("Enter");
@@ -538,6 +562,13 @@ const tests = {
     writeFileSync(file, JSON.stringify(model));
     const report = JSON.parse(execFileSync(PROGRAM, ["workspace", file, "maximal", "--json"], { encoding: "utf8" }));
     assert.ok(Math.abs(report.area - asked.area) <= 1e-9 * report.area);
+    // All is shown with its workspace.
+    await page.evaluate(() => document.activeElement.blur());
+    await page.keyboard.press("f");
+    assert.ok(await page.evaluate(() => {
+      const { stage, page } = globalThis.assur;
+      return page.region.loops.flat().every((point) => stage.place(point).every((v, axis) => v > 0 && v < stage.extent[axis]));
+    }));
     await page.selectOption("#workspace", "");
     await settled(page);
   },
@@ -628,6 +659,9 @@ const tests = {
     await said('did you mean "leg"');
     await page.setInputFiles("#file", file("large.toml", "#".repeat(300_000)));
     await said("too large");
+    // Measured as it is sent: letters of two bytes.
+    const long = page.evaluate(() => globalThis.assur.connection.ask("write", { model: "é".repeat(0.6 * globalThis.assur.connection.largest) }).catch((error) => error.message));
+    assert.match(await long, /too large/);
     assert.deepEqual(await state(page), before);
     await page.setInputFiles("#file", join(examples, "coupler.json"));
     await page.waitForFunction(() => globalThis.assur.page.answer?.circuits);
@@ -689,6 +723,20 @@ const tests = {
     await drag(other, "base:0", 30, 20);
     assert.deepEqual(await state(page), before);
     assert.equal((await state(other)).model.leg.length, 3);
+    await other.close();
+  },
+
+  async "a page too many says so, and gets in when another is closed"(page) {
+    await page.evaluate(async () => {
+      globalThis.others = Array.from({ length: 32 }, () => new WebSocket(globalThis.assur.connection.socket.url));
+      await Promise.all(globalThis.others.map((socket) => new Promise((go) => socket.addEventListener("open", go))));
+    });
+    const other = await context.newPage();
+    await other.goto(server.address);
+    await other.waitForFunction(() => document.getElementById("notice").textContent.includes("too many pages are open"));
+    await page.evaluate(() => globalThis.others.forEach((socket) => socket.close()));
+    await other.waitForFunction(() => globalThis.assur.page?.answer, null, { timeout: 15_000 });
+    assert.ok(!(await other.locator("#notice").isVisible()));
     await other.close();
   },
 
