@@ -13,6 +13,8 @@ struct Explorer {
     process: Child,
     port: u16,
     token: String,
+    /// What follows the token in the address.
+    view: String,
 }
 
 impl Explorer {
@@ -25,7 +27,24 @@ impl Explorer {
         BufReader::new(out).read_line(&mut line).expect("prints its address");
         let rest = line.trim().strip_prefix("http://127.0.0.1:").expect("an address of this machine");
         let (port, token) = rest.split_once('/').expect("a token follows");
-        Self { process, port: port.parse().expect("a port"), token: token.trim_end_matches('/').to_owned() }
+        let (token, view) = token.split_once('/').expect("a path follows");
+        let (port, token, view) = (port.parse().expect("a port"), token.to_owned(), view.to_owned());
+        Self { process, port, token, view }
+    }
+
+    /// Why one does not start.
+    fn refused(arguments: &[&str]) -> String {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_assur"));
+        command.args(["explore", "--no-open"]).args(arguments).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut process = command.spawn().expect("the program starts");
+        // One that starts all the same would wait for questions.
+        let mut line = String::new();
+        let out = process.stdout.take().expect("is piped");
+        BufReader::new(out).read_line(&mut line).expect("ends or prints its address");
+        let _ = process.kill();
+        assert_eq!(line, "", "{arguments:?} starts");
+        let output = process.wait_with_output().expect("ends");
+        String::from_utf8(output.stderr).expect("text").trim().to_owned()
     }
 
     fn connect(&self) -> TcpStream {
@@ -203,9 +222,13 @@ fn conversations_from_elsewhere_are_refused() {
 fn what_is_too_large_or_no_question_is_answered_with_a_reason() {
     let explorer = Explorer::start(&[]);
     let mut talk = explorer.converse();
-    for text in ["", "{", "[]", "null", r#"{"id":1}"#, r#"{"id":1,"ask":"nothing"}"#, r#"{"id":-1,"ask":"start"}"#] {
+    let numbered =
+        [r#"{"id":7}"#, r#"{"id":7,"ask":"nothing"}"#, r#"{"id":7,"ask":"move","workspace":{"kind":"none"}}"#];
+    for text in ["", "{", "[]", "null", r#"{"id":-1,"ask":"start"}"#].iter().chain(&numbered) {
         let answer = talk.say(text);
         assert!(answer["error"].as_str().is_some_and(|error| error.contains("cannot be read")), "{text}: {answer}");
+        // Whoever asked learns which question it was, if that can be read.
+        assert_eq!(answer["id"], if numbered.contains(text) { json!(7) } else { Value::Null }, "{text}");
     }
     let (model, inputs) = talk.start();
     let moved = |talk: &mut Conversation, model: &Value, inputs: &Value, pull: Value| {
@@ -255,13 +278,160 @@ fn what_is_too_large_or_no_question_is_answered_with_a_reason() {
 }
 
 #[test]
-fn a_stopped_explorer_is_taken_up_at_its_address() {
+fn a_page_too_many_learns_why() {
+    let explorer = Explorer::start(&[]);
+    let mut open: Vec<Conversation> = (0..32).map(|_| explorer.converse()).collect();
+    let (opcode, payload) = explorer.converse().receive().expect("a reason");
+    assert_eq!((opcode, u16::from_be_bytes([payload[0], payload[1]])), (8, 1013));
+    assert!(String::from_utf8_lossy(&payload[2..]).contains("too many pages"));
+    assert!(open[31].ask("start", json!({}))["answer"].is_object());
+}
+
+#[test]
+fn a_stopped_explorer_is_taken_up_at_its_address_and_shows_the_view_of_a_link() {
     let mut explorer = Explorer::start(&[]);
-    let address = format!("http://127.0.0.1:{}/{}/#state", explorer.port, explorer.token);
     let _ = (explorer.process.kill(), explorer.process.wait());
-    let again = Explorer::start(&[&address]);
-    assert_eq!((again.port, &again.token), (explorer.port, &explorer.token));
-    assert!(again.converse().ask("start", json!({}))["answer"].is_object());
+    for (host, view, kept) in [("127.0.0.1", "#abc-_9", "#abc-_9"), ("localhost", "", ""), ("127.0.0.1", "#a&b", "")] {
+        let again = Explorer::start(&[&format!("http://{host}:{}/{}/{view}", explorer.port, explorer.token)]);
+        assert_eq!((again.port, &again.token), (explorer.port, &explorer.token));
+        assert_eq!(again.view, kept);
+        assert!(again.converse().ask("start", json!({}))["answer"].is_object());
+    }
+}
+
+#[test]
+fn inputs_are_in_the_unit_of_the_model_and_judged_before_the_start() {
+    let cranks = Explorer::start(&["examples/3-rrr.toml", "--inputs=60,-30,10"]).converse().start().1;
+    let in_degrees: Vec<f64> =
+        cranks.as_array().expect("a list").iter().map(|q| q.as_f64().expect("a number").to_degrees()).collect();
+    assert!(in_degrees.iter().zip([60.0, -30.0, 10.0]).all(|(q, given)| (q - given).abs() < 1e-12), "{in_degrees:?}");
+    assert_eq!(Explorer::start(&["--inputs=10,11,12"]).converse().start().1, json!([10.0, 11.0, 12.0]));
+    assert!(Explorer::refused(&["--inputs=1,2"]).ends_with("--inputs: inputs: 2 given, 3 actuated joints"));
+    let beyond = Explorer::refused(&["examples/workspaces/five-kinds.toml", "--inputs=1e9,1,1"]);
+    assert!(beyond.contains("five-kinds.toml: leg 1: input 1000000000 of joint 2 is outside limits"), "{beyond}");
+    assert!(Explorer::refused(&["examples/coupler.json", "--inputs=1"]).contains("no actuators"));
+    let address = format!("http://127.0.0.1:1/{}/", "0".repeat(32));
+    assert!(Explorer::refused(&[&address, "--inputs=1,2,3"]).contains("--inputs goes with a model"));
+}
+
+/// A model of which no place on its sliders can be put together begins where its limits allow.
+#[test]
+fn a_model_without_modes_begins_within_its_limits() {
+    let explorer = Explorer::start(&[]);
+    let mut talk = explorer.converse();
+    let leg = |base: &str, platform: &str| {
+        format!("[[leg]]\njoints = \"R_P_R\"\nbase.at = {base}\nplatform.at = {platform}\nlimits = [0.1, 0.2]\n")
+    };
+    let legs = leg("[0, 0]", "[0, 0]") + &leg("[10, 0]", "[1, 0]") + &leg("[0, 10]", "[0, 1]");
+    let text = format!("schema = \"assur/manipulator/1\"\n{legs}");
+    let opened = talk.ask("open", json!({ "text": text, "file": "short.toml" }))["answer"].clone();
+    assert_eq!(opened["inputs"], json!([0.1, 0.1, 0.1]), "{opened}");
+    let question = json!({ "model": opened["model"], "inputs": opened["inputs"], "mode": null, "pick": true });
+    let answer = talk.ask("move", question);
+    assert_eq!(answer["answer"]["report"]["modes"], json!([]), "{answer}");
+}
+
+#[test]
+fn linkages_are_read_by_what_they_call_themselves_and_keep_what_is_not_pulled() {
+    let explorer = Explorer::start(&[]);
+    let mut talk = explorer.converse();
+    let bars = "a = [0, 0]\nb = [4, 0]\np = [-1, -1.4]\nq = [2, -1.4]\nr = 1.2";
+    let head = "schema = \"assur/coupler/1\"\nname = \"mine\"\n";
+    let file = format!("{head}[fourbar]\n{bars}\ns = 3\n[with.circle]\ncenter = [0, 0]\nradius = 1\n");
+    let opened = talk.ask("open", json!({ "text": file, "file": "mine.toml" }))["answer"].clone();
+    assert_eq!(opened["kind"], json!("four_bar"), "{opened}");
+    let place = json!({ "circuit": 9, "tau": 0.5 });
+    let pull = json!({ "handle": "pivot", "side": 1, "to": [4.1, 0.2] });
+    let moved = talk.ask("four_bar", json!({ "file": opened["file"], "place": place, "pull": pull }))["answer"].clone();
+    assert_eq!(moved["file"]["fourbar"]["b"], json!([4.1, 0.2]), "{moved}");
+    assert_eq!((&moved["file"]["name"], &moved["file"]["with"]), (&opened["file"]["name"], &opened["file"]["with"]));
+    // Mistakes are those of the file at hand.
+    let wrong = talk.ask("open", json!({ "text": format!("{head}[fourbar]\n{bars}"), "file": "mine.toml" }));
+    assert!(wrong["error"].as_str().is_some_and(|error| error.contains("mine.toml: fourbar.s: missing")), "{wrong}");
+    let wrong = talk.ask("open", json!({ "text": "schema = \"assur/group/1\"\nlinks = 2.5", "file": "g.toml" }));
+    assert_eq!(wrong["error"], json!("g.toml: links: 2.5 must be a whole number from 0"));
+    // What cannot be put together cannot be pulled, and says so.
+    let apart = json!({ "schema": "assur/coupler/1", "fourbar": { "a": [0, 0], "b": [40, 0], "p": [0, 0], "q": [1, 0], "r": 1, "s": 1 } });
+    let seen = talk.ask("four_bar", json!({ "file": apart }));
+    assert_eq!(seen["answer"]["circuits"], json!([]), "{seen}");
+    let pulled = talk.ask("four_bar", json!({ "file": apart, "pull": pull }));
+    assert!(pulled["error"].as_str().is_some_and(|error| error.contains("cannot be put together")), "{pulled}");
+    let text = std::fs::read_to_string("examples/seven-link.json").expect("an example");
+    let opened = talk.ask("open", json!({ "text": text, "file": "seven.json" }))["answer"].clone();
+    let drawn = talk.ask("truss", json!({ "file": opened["file"] }))["answer"].clone();
+    assert_eq!(drawn["file"]["name"], json!("Baranov truss 7#0"), "{opened}");
+}
+
+/// Angles come back where a slider shows them, and what is pulled then starts from there.
+#[test]
+fn angles_are_given_within_their_range() {
+    let explorer = Explorer::start(&[]);
+    let mut talk = explorer.converse();
+    let new = talk.ask("new", json!({ "family": "3-RRP" }))["answer"].clone();
+    let question = json!({ "model": new["model"], "inputs": new["inputs"], "mode": null, "pick": true });
+    let moved = talk.ask("move", question)["answer"].clone();
+    let turns =
+        |k: usize| (new["inputs"][k].as_f64().expect("a number"), moved["inputs"][k].as_f64().expect("a number"));
+    let (before, after) = turns(1);
+    assert!(
+        before > std::f64::consts::PI && (before - after - std::f64::consts::TAU).abs() < 1e-12,
+        "{before}, {after}"
+    );
+    assert_eq!(turns(0).0, turns(0).1);
+}
+
+/// A workspace that takes too long for a step of a drag is asked for by itself, and is the same.
+#[test]
+fn a_workspace_by_itself_is_that_of_a_pull() {
+    let explorer = Explorer::start(&["examples/workspaces/five-kinds.toml"]);
+    let mut talk = explorer.converse();
+    let (model, inputs) = talk.start();
+    for workspace in [json!({ "kind": "maximal" }), json!({ "kind": "constant" })] {
+        let mut ask = json!({ "model": model, "inputs": inputs, "mode": null, "pick": true, "workspace": workspace });
+        let moved = talk.ask("move", ask.clone())["answer"].clone();
+        let mode = &moved["report"]["modes"][moved["current"].as_u64().expect("a mode is held") as usize];
+        ask["pose"] = mode["pose"].clone();
+        let alone = talk.ask("workspace", ask)["answer"].clone();
+        assert!(alone["area"].as_f64().is_some_and(|area| area > 1.0), "{alone}");
+        for name in ["kind", "area", "loops", "isolated", "unclosed"] {
+            assert_eq!(alone[name], moved["workspace"][name], "{workspace}: {name}");
+        }
+    }
+}
+
+#[test]
+fn middle_sliders_are_pulled() {
+    let explorer = Explorer::start(&[]);
+    let mut talk = explorer.converse();
+    for (family, link) in [("3-PPR", 0), ("3-RPP", 1)] {
+        let new = talk.ask("new", json!({ "family": family }))["answer"].clone();
+        let ask = json!({ "model": new["model"], "inputs": new["inputs"], "mode": null, "pick": true });
+        let seen = talk.ask("move", ask.clone())["answer"].clone();
+        let mode = &seen["report"]["modes"][seen["current"].as_u64().expect("a mode is held") as usize];
+        let axes =
+            seen["handles"].as_array().expect("a list").iter().filter(|grip| grip["handle"] == json!("middle_axis"));
+        let axis = axes.clone().next().expect("a middle slider has a handle");
+        assert_eq!(axes.count(), 3, "{family}");
+        let [from, at] = ["from", "at"].map(|name| [0, 1].map(|k| axis[name][k].as_f64().expect("a number")));
+        let (way, turn) = ([at[0] - from[0], at[1] - from[1]], 0.1_f64);
+        let to =
+            [from[0] + turn.cos() * way[0] - turn.sin() * way[1], from[1] + turn.sin() * way[0] + turn.cos() * way[1]];
+        let mut ask = ask;
+        ask["mode"] = json!({ "pose": mode["pose"], "signs": mode["signs"] });
+        ask["pull"] = json!({ "handle": "middle_axis", "leg": 0, "from": from, "to": to });
+        let moved = talk.ask("move", ask)["answer"].clone();
+        assert!(moved["current"].is_u64(), "{family}: {}", moved["event"]);
+        let [before, after] = [&new, &moved].map(|answer| assur_leg(&answer["model"]));
+        let angle = |leg: &assur::Leg| leg.links[link].direction.y.atan2(leg.links[link].direction.x);
+        let turned = (angle(&after) - angle(&before)).sin();
+        assert!((turned.abs() - turn.sin()).abs() < 1e-9, "{family}: {turned}");
+    }
+}
+
+/// The first leg of a model in a message.
+fn assur_leg(model: &Value) -> assur::Leg {
+    let model = assur::exchange::ModelFile::parse(&model.to_string(), "model.json").expect("a sound model");
+    model.manipulator.legs[0].clone()
 }
 
 /// 2000 small pulls that pass close by a meeting of two modes: the mode that is held never jumps, and in the end is the one that one proved path leads to.

@@ -1,6 +1,6 @@
 // The eliminant's roots: theta = e^(i phi). Real modes stand on the unit circle, the others in pairs inside and outside of it.
 
-import { svg } from "./svg.js";
+import { set, svg } from "./svg.js";
 
 /** @typedef {import("./types.js").ForwardReport} ForwardReport */
 
@@ -19,27 +19,37 @@ export class Circle {
     for (const [text, dx, dy] of /** @type {[string, number, number][]} */ ([["0°", RIM + 6, -5], ["90°", 5, -RIM - 5], ["180°", -RIM - 32, -5], ["−90°", 5, RIM + 13]])) {
       svg("text", { x: x + dx, y: y + dy }, this.element).textContent = text;
     }
-    this.roots = svg("g", {}, this.element);
+    this.complex = svg("g", {}, this.element);
+    this.real = svg("g", {}, this.element);
   }
 
   /** @param {ForwardReport} report @param {number | null} current @param {number[]} tones */
   draw(report, current, tones) {
-    this.roots.replaceChildren();
     const at = (/** @type {[number, number]} */ [re, im]) => {
       const size = Math.hypot(re, im);
       const shrunk = size > FARTHEST ? FARTHEST / size : 1;
-      return [SIZE / 2 + re * shrunk * RIM, HEIGHT / 2 - im * shrunk * RIM];
+      return [SIZE / 2 + re * shrunk * RIM, HEIGHT / 2 - im * shrunk * RIM].map((v) => v.toFixed(1));
     };
-    for (const root of report.complex) {
+    while (this.complex.children.length > report.complex.length) this.complex.lastChild?.remove();
+    report.complex.forEach((root, k) => {
       const [x, y] = at(root.theta);
-      svg("path", { class: "cross", d: `M${x - 4} ${y - 4}l8 8m0 -8l-8 8` }, this.roots);
-    }
+      set(this.complex.children[k] ?? svg("path", { class: "cross", d: "M-4 -4l8 8m0 -8l-8 8" }, this.complex), "transform", `translate(${x} ${y})`);
+    });
+    while (this.real.children.length > report.modes.length) this.real.lastChild?.remove();
     report.modes.forEach((mode, k) => {
+      let dot = this.real.children[k];
+      if (!dot) {
+        dot = svg("circle", {}, this.real);
+        svg("title", {}, dot).textContent = `mode ${k + 1}`;
+      }
       const [x, y] = at([Math.cos(mode.pose[2]), Math.sin(mode.pose[2])]);
-      const dot = svg("circle", { class: `real${k === current ? " current" : ""}`, cx: x, cy: y, r: k === current ? 7 : 5.5, "data-tone": tones[k] }, this.roots);
-      svg("title", {}, dot).textContent = `mode ${k + 1}`;
+      set(dot, "class", `real${k === current ? " current" : ""}`);
+      set(dot, "cx", x);
+      set(dot, "cy", y);
+      set(dot, "r", k === current ? "7" : "5.5");
+      set(dot, "data-tone", String(tones[k]));
     });
     const [real, others] = [report.modes.length, report.complex.length];
-    this.element.setAttribute("aria-label", `${real} roots on the unit circle, ${others} off it`);
+    set(this.element, "aria-label", `${real} roots on the unit circle, ${others} off it`);
   }
 }

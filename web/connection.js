@@ -6,6 +6,10 @@ const PAUSES = [200, 500, 1000, 2000, 5000];
 const QUICK = new Set(["move", "four_bar", "truss"]);
 /** Answers whose times are kept, for the statistics. */
 const TIMES_KEPT = 600;
+/** Close codes with which the server gives its reason: messages of a kind or size it does not take, and too many pages. Any other close is its end. */
+const WITH_REASON = new Set([1003, 1009, 1013]);
+/** Bytes of UTF-8 for one unit of a string, at most. */
+const BYTES_PER_UNIT = 3;
 
 /** A question that was refused, with a sentence for people. */
 export class Refused extends Error {}
@@ -13,7 +17,7 @@ export class Refused extends Error {}
 export class Unanswered extends Error {}
 
 export class Connection {
-  /** @param {(state: "connecting" | "open" | "closed") => void} onState */
+  /** @param {(state: "connecting" | "open" | "closed", reason?: string) => void} onState the reason is the server's own, if it gave one */
   constructor(onState) {
     this.onState = onState;
     /** @type {WebSocket | null} */
@@ -26,8 +30,6 @@ export class Connection {
     this.largest = 64 * 1024;
     /** @type {number[]} */
     this.times = [];
-    /** @type {(() => void)[]} */
-    this.whenOpen = [];
     this.connect();
   }
 
@@ -38,17 +40,16 @@ export class Connection {
     address.hash = "";
     const socket = new WebSocket(address);
     this.socket = socket;
-    socket.onopen = () => {
+    socket.onopen = () => this.onState("open");
+    socket.onmessage = (message) => {
+      // Who is only let in to be turned away again waits longer each time.
       this.attempts = 0;
-      this.onState("open");
-      this.whenOpen.splice(0).forEach((go) => go());
+      this.take(JSON.parse(message.data));
     };
-    socket.onmessage = (message) => this.take(JSON.parse(message.data));
-    socket.onclose = () => {
+    socket.onclose = ({ code, reason }) => {
       this.socket = null;
-      this.onState("closed");
-      for (const { reject } of this.waiting.values()) reject(new Unanswered("the server did not answer"));
-      this.waiting.clear();
+      this.onState("closed", WITH_REASON.has(code) ? reason : undefined);
+      this.giveUp(new Unanswered("the server did not answer"));
       const pause = PAUSES[Math.min(this.attempts, PAUSES.length - 1)];
       this.attempts += 1;
       setTimeout(() => this.connect(), pause);
@@ -57,7 +58,8 @@ export class Connection {
 
   /** @param {{ id: number | null, answer?: any, error?: string }} message */
   take(message) {
-    if (message.id === null) return;
+    // A question so wrong that its number could not be read: one of those that wait.
+    if (message.id === null) return this.giveUp(new Refused(message.error ?? "the question cannot be read"));
     const question = this.waiting.get(message.id);
     if (!question) return;
     this.waiting.delete(message.id);
@@ -70,10 +72,17 @@ export class Connection {
     question.resolve(message.answer);
   }
 
-  /** Resolves once the server can be asked. */
-  opened() {
-    const open = this.socket?.readyState === WebSocket.OPEN;
-    return open ? Promise.resolve() : new Promise((go) => this.whenOpen.push(() => go(undefined)));
+  /** @param {Error} error */
+  giveUp(error) {
+    const waiting = [...this.waiting.values()];
+    this.waiting.clear();
+    for (const { reject } of waiting) reject(error);
+  }
+
+  /** For how long the oldest question has been waiting for its answer, in milliseconds. */
+  waits() {
+    const [first] = this.waiting.values();
+    return first ? performance.now() - first.asked : 0;
   }
 
   /**
@@ -86,7 +95,9 @@ export class Connection {
     if (!socket || socket.readyState !== WebSocket.OPEN) return Promise.reject(new Unanswered("the server is gone"));
     const id = this.next++;
     const text = JSON.stringify({ id, ask: kind, ...question });
-    if (text.length > this.largest) return Promise.reject(new Refused(`that is too large: ${text.length} of at most ${this.largest} bytes`));
+    // Measured only where it may matter: a drag asks sixty times a second.
+    const bytes = text.length * BYTES_PER_UNIT > this.largest ? new TextEncoder().encode(text).length : 0;
+    if (bytes > this.largest) return Promise.reject(new Refused(`that is too large: ${bytes} of at most ${this.largest} bytes`));
     return new Promise((resolve, reject) => {
       this.waiting.set(id, { resolve, reject, asked: performance.now(), quick: QUICK.has(kind) });
       socket.send(text);
@@ -99,38 +110,4 @@ export class Connection {
     const sorted = [...this.times].sort((a, b) => a - b);
     return { last: this.times[this.times.length - 1], p95: sorted[Math.ceil(0.95 * sorted.length) - 1] };
   }
-}
-
-/**
- * Runs one task at a time; of those that come meanwhile only the last, so that a drag is never behind.
- * @template T
- * @param {(wish: T) => Promise<void>} task
- */
-export function latest(task) {
-  let busy = false;
-  /** @type {{ wish: T } | null} */
-  let pending = null;
-  /** @type {(() => void)[]} */
-  let idle = [];
-  const run = async (/** @type {T} */ wish) => {
-    busy = true;
-    try {
-      await task(wish);
-    } finally {
-      busy = false;
-      const next = pending;
-      pending = null;
-      if (next) run(next.wish);
-      else idle.splice(0).forEach((go) => go());
-    }
-  };
-  return {
-    /** @param {T} wish */
-    push(wish) {
-      if (busy) pending = { wish };
-      else run(wish);
-    },
-    /** Resolves when nothing is left to do. */
-    settled: () => (busy ? new Promise((go) => idle.push(() => go(undefined))) : Promise.resolve()),
-  };
 }

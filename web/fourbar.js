@@ -1,8 +1,8 @@
 // The page of four-bars: the coupler curve with its circuits, and the linkage that draws it.
 
-import { latest } from "./connection.js";
-import { button, facts, panel } from "./panels.js";
-import { html } from "./svg.js";
+import { Page } from "./page.js";
+import { Facts, Rows, button, onSlide, panel } from "./panels.js";
+import { html, write } from "./svg.js";
 
 /**
  * @typedef {import("./types.js").FourBarState} FourBarState
@@ -20,91 +20,83 @@ const TURN = 2 * Math.PI;
 const TOUR = 6;
 const LABELS = /** @type {Record<string, string>} */ ({ "pivot:0": "left pivot", "pivot:1": "right pivot", "joint:0": "left joint", "joint:1": "right joint", point: "coupler point" });
 
-export class FourBarPage {
+/** @extends {Page<FourBarState, FourBarAnswer>} */
+export class FourBarPage extends Page {
   /** @param {App} app @param {FourBarState} state */
   constructor(app, state) {
-    this.app = app;
-    this.state = state;
-    /** @type {FourBarAnswer | null} */
-    this.answer = null;
+    super(app, state);
     this.playing = false;
-    this.moves = latest((/** @type {{ pull: object | null, fit?: boolean, book?: boolean }} */ wish) => this.move(wish));
-    this.facts = html("div");
+    this.facts = new Facts();
     this.slider = html("input", { type: "range", min: 0, max: TURN, step: TURN / 2000, "aria-label": "Place on the circuit" });
-    this.slider.addEventListener("input", () => {
-      this.playing = false;
-      this.state.place = { circuit: this.state.place.circuit, tau: this.slider.valueAsNumber };
-      this.moves.push({ pull: null });
-    });
-    this.slider.addEventListener("change", () => this.drop());
-    this.circuits = html("ul", { class: "modes" });
+    onSlide(this.slider, () => {
+      this.stop();
+      this.pulling = true;
+      this.do({ place: { tau: this.slider.valueAsNumber }, key: "tau", drag: true });
+    }, () => this.drop());
+    this.circuits = new Rows((k) => this.hold(k));
     this.playButton = button("run", () => this.play(), { id: "run" });
-    this.app.panels(
+    this.panels = [
       panel("Place on the circuit", [html("div", { class: "actuator one" }, [html("span", {}, ["τ"]), this.slider])], [this.playButton]),
-      panel("Circuits", [this.circuits]),
-      panel("Curve", [this.facts]),
+      panel("Circuits", [this.circuits.element]),
+      panel("Curve", [this.facts.element]),
       panel("Design", [button("Edit as text …", () => this.app.edit(), { id: "edit" })]),
-    );
+    ];
   }
 
-  /** @param {boolean} _pick @param {boolean} fit */
-  begin(_pick, fit) {
-    this.moves.push({ pull: null, fit });
-    return this.moves.settled();
+  leave() {
+    super.leave();
+    this.stop();
   }
 
-  /** @param {{ pull: object | null, fit?: boolean, book?: boolean }} wish */
-  async move({ pull, fit = false, book = false }) {
-    try {
-      /** @type {FourBarAnswer} */
-      const answer = await this.app.connection.ask("four_bar", { file: this.state.file, place: this.state.place, pull });
-      this.answer = answer;
-      this.state.file = answer.file;
-      this.state.place = answer.place;
-      if (fit) this.fit();
-      this.app.schedule();
-      this.app.say("");
-      if (book) this.app.book();
-    } catch (error) {
-      this.app.fail(error);
-    }
+  /** @param {import("./types.js").Wish} wish */
+  async ask({ pull = null, place }) {
+    /** @type {FourBarAnswer} */
+    const answer = await this.app.connection.ask("four_bar", { file: this.state.file, place: { ...this.state.place, ...place }, pull });
+    this.answer = answer;
+    this.state.file = answer.file;
+    this.state.place = answer.place;
+    return "";
   }
 
-  grab() {
-    this.playing = false;
+  /** @param {string} key */
+  grab(key) {
+    super.grab(key);
+    this.stop();
   }
 
   /** @param {string} key @param {Point} to */
   pullHandle(key, to) {
     const [handle, side] = key.split(":");
-    this.moves.push({ pull: side === undefined ? { handle, to } : { handle, side: Number(side), to } });
-  }
-
-  async drop() {
-    await this.moves.settled();
-    this.app.book();
+    this.do({ pull: side === undefined ? { handle, to } : { handle, side: Number(side), to }, key, drag: true });
   }
 
   /** @param {number} index a circuit */
   hold(index) {
-    if (!this.answer || index >= this.answer.circuits.length) return;
-    this.state.place = { circuit: index, tau: this.state.place.tau };
-    this.moves.push({ pull: null, book: true });
+    if (this.answer && index < this.answer.circuits.length) this.do({ place: { circuit: index }, book: true });
   }
 
   play() {
-    this.playing = !this.playing;
+    if (this.playing) {
+      this.stop();
+      this.drop();
+      return;
+    }
+    this.playing = true;
+    write(this.playButton, "stop");
     let before = performance.now();
     const step = (/** @type {number} */ now) => {
-      this.playButton.textContent = this.playing ? "stop" : "run";
       if (!this.playing) return;
-      const { circuit, tau } = this.state.place;
-      this.state.place = { circuit, tau: (tau + ((now - before) / 1000 / TOUR) * TURN) % TURN };
+      const tau = (this.state.place.tau + ((now - before) / 1000 / TOUR) * TURN) % TURN;
       before = now;
-      this.moves.push({ pull: null });
+      this.do({ place: { tau }, key: "tau", drag: true, quiet: true });
       requestAnimationFrame(step);
     };
     requestAnimationFrame(step);
+  }
+
+  stop() {
+    this.playing = false;
+    write(this.playButton, "run");
   }
 
   fit() {
@@ -133,21 +125,15 @@ export class FourBarPage {
     ];
     app.stage.handles(grips.map(({ key, at }) => ({ key, at, label: LABELS[key] })));
     const n = answer.circuits.length;
-    app.caption("Coupler curve", `${answer.report.grashof ?? "slider"}, ${n} circuit${n === 1 ? "" : "s"}`);
-    if (document.activeElement !== this.slider) this.slider.value = String(place.tau);
-    this.circuits.replaceChildren(...answer.circuits.map((_, k) => {
-      const row = html("button", { "data-tone": (k + 1) % 6, "aria-pressed": String(k === place.circuit) }, [
-        html("span", { class: "swatch" }, [html("b", {}, [String(k + 1)])]), html("span", { class: "text" }, [`circuit ${k + 1}`]),
-      ]);
-      row.addEventListener("click", () => this.hold(k));
-      return html("li", {}, [row]);
-    }));
+    app.caption(answer.file.name || "Coupler curve", `${answer.report.grashof ?? "slider"}, ${n} circuit${n === 1 ? "" : "s"}`);
+    if (!(this.pulling && document.activeElement === this.slider)) this.slider.value = String(place.tau);
+    this.circuits.draw(answer.circuits.map((_, k) => ({ tone: (k + 1) % 6, text: `circuit ${k + 1}`, held: k === place.circuit })));
     const real = answer.report.double_points?.filter((double) => double.point) ?? [];
-    this.facts.replaceChildren(facts([
+    this.facts.draw([
       ["class", answer.report.grashof ?? "with a slider"],
       ["degree", "6"],
       ["real double points", answer.report.double_points ? String(real.length) : "every point"],
       ["cognates", String(answer.report.cognates.length)],
-    ]));
+    ]);
   }
 }

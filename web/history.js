@@ -1,51 +1,63 @@
-// Undo, redo, and the state in the address, so that a link shows the same view.
+// Undo, redo, and the state in the address, so that a link shows the same mechanism.
 
-/** @typedef {import("./types.js").State} State */
+import { WORKSPACES } from "./manipulator.js";
+
+/** @typedef {import("./types.js").State} State @typedef {"undo" | "redo"} Way */
+/** @typedef {{ state: State, fresh: boolean }} Step A state, and whether it began anew: from a file, a family or another page. */
 
 /** Steps kept. */
 const MOST = 200;
+/** Browsers refuse a page that changes its address too often; then it is tried again, in milliseconds. */
+const AGAIN = 1000;
 
 export class History {
   constructor() {
-    /** @type {State[]} */
+    /** @type {Step[]} */
     this.past = [];
-    /** @type {State[]} */
+    /** @type {Step[]} */
     this.future = [];
-    /** @type {State | null} */
+    /** @type {Step | null} */
     this.now = null;
+    this.timer = 0;
   }
 
-  /** Books a state that the user has arrived at. @param {State} state */
-  book(state) {
+  /** Books a state that the user has arrived at. @param {State} state @param {boolean} fresh @returns {boolean} whether it is another one */
+  book(state, fresh) {
     const text = JSON.stringify(state);
-    if (this.now && JSON.stringify(this.now) === text) return;
+    if (this.now && JSON.stringify(this.now.state) === text) return false;
     if (this.now) this.past.push(this.now);
     if (this.past.length > MOST) this.past.shift();
     this.future = [];
-    this.now = JSON.parse(text);
-    this.write();
+    this.now = { state: JSON.parse(text), fresh };
+    return true;
   }
 
-  undo() {
-    return this.step(this.past, this.future);
+  /** Where a step would lead, and whether to something else altogether. @param {Way} way @returns {Step | null} */
+  next(way) {
+    const next = this[way === "undo" ? "past" : "future"].at(-1);
+    if (!next || !this.now) return null;
+    return { state: next.state, fresh: way === "undo" ? this.now.fresh : next.fresh };
   }
 
-  redo() {
-    return this.step(this.future, this.past);
-  }
-
-  /** @param {State[]} from @param {State[]} to @returns {State | null} */
-  step(from, to) {
-    const state = from.pop();
-    if (!state || !this.now) return null;
+  /** Takes the step, once what it leads to is shown. @param {Way} way */
+  step(way) {
+    const [from, to] = way === "undo" ? [this.past, this.future] : [this.future, this.past];
+    const next = from.pop();
+    if (!next || !this.now) return;
     to.push(this.now);
-    this.now = state;
+    this.now = next;
     this.write();
-    return JSON.parse(JSON.stringify(state));
   }
 
+  /** Puts the state into the address. */
   write() {
-    if (this.now) history.replaceState(null, "", `#${encode(this.now)}`);
+    clearTimeout(this.timer);
+    if (!this.now) return;
+    try {
+      history.replaceState(null, "", `#${encode(this.now.state)}`);
+    } catch {
+      this.timer = setTimeout(() => this.write(), AGAIN);
+    }
   }
 }
 
@@ -56,14 +68,27 @@ export function encode(state) {
   return btoa(letters).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
 }
 
-/** The state in an address, or null where there is none. @param {string} hash @returns {State | null} */
+/** The state in an address; null where it is none. @param {string} hash @returns {State | null} */
 export function decode(hash) {
   try {
     const letters = atob(hash.replace(/^#/, "").replaceAll("-", "+").replaceAll("_", "/"));
-    const state = JSON.parse(new TextDecoder().decode(Uint8Array.from(letters, (letter) => letter.charCodeAt(0))));
-    const known = ["manipulator", "four_bar", "truss"].includes(state.page);
-    return known ? state : null;
+    const state = JSON.parse(new TextDecoder("utf-8", { fatal: true }).decode(Uint8Array.from(letters, (letter) => letter.charCodeAt(0))));
+    return isState(state) ? state : null;
   } catch {
     return null;
   }
+}
+
+/** Whether it has the parts of a state; what they mean, the server judges. @param {any} state @returns {state is State} */
+function isState(state) {
+  const table = (/** @type {unknown} */ value) => typeof value === "object" && value !== null && !Array.isArray(value);
+  const numbers = (/** @type {unknown} */ list, /** @type {number} */ count) => Array.isArray(list) && list.length === count && list.every(Number.isFinite);
+  if (!table(state)) return false;
+  const { page, file, place, model, inputs, mode, workspace, loci, pair } = state;
+  if (page === "truss") return table(file);
+  if (page === "four_bar") return table(file) && table(place) && Number.isInteger(place.circuit) && place.circuit >= 0 && Number.isFinite(place.tau);
+  return page === "manipulator" && table(model) && Array.isArray(inputs) && numbers(inputs, inputs.length)
+    && (mode === null || (table(mode) && numbers(mode.pose, 3) && typeof mode.signs === "string"))
+    && table(workspace) && WORKSPACES.some(([kind]) => kind === workspace.kind) && numbers([workspace.from, workspace.to], 2) && typeof loci === "boolean"
+    && ["0,1", "0,2", "1,2"].includes(String(pair));
 }

@@ -5,24 +5,30 @@ import { download, fileName, picture, pixels } from "./exporting.js";
 import { FIRST as FIRST_FOUR_BAR, FourBarPage } from "./fourbar.js";
 import { History, decode } from "./history.js";
 import { ManipulatorPage } from "./manipulator.js";
+import { inOrder } from "./queue.js";
 import { Stage } from "./stage.js";
-import { byId, html } from "./svg.js";
+import { byId, html, write } from "./svg.js";
 import { FIRST as FIRST_TRUSS, TrussPage } from "./truss.js";
 
 /**
  * @typedef {import("./types.js").State} State
  * @typedef {import("./types.js").ManipulatorState} ManipulatorState
- * @typedef {ManipulatorPage | FourBarPage | TrussPage} Page
+ * @typedef {ManipulatorPage | FourBarPage | TrussPage} AnyPage
  * @typedef {{ kind: "manipulator", model: import("./types.js").Model, inputs: number[] } | { kind: "four_bar", file: object } | { kind: "truss", file: object }} Opened
  */
 
 /** The time of answers is shown no more often than this, in milliseconds. */
 const TIMING_PAUSE = 250;
+/** An answer that takes longer than this, in milliseconds, is seen to be worked on. */
+const LONG = 400;
 
 export class App {
   constructor() {
     this.stage = new Stage(byId("stage"), {
-      grab: () => this.page?.grab(),
+      grab: (key) => {
+        byId("hint").hidden = true;
+        this.page?.grab(key);
+      },
       pull: (key, to) => this.page?.pullHandle(key, to),
       drop: () => this.page?.drop(),
       take: (number) => this.page?.hold(number),
@@ -30,41 +36,95 @@ export class App {
     this.stage.redraw = () => this.schedule();
     this.scheduled = false;
     this.history = new History();
-    /** @type {Page | null} */
+    /** @type {AnyPage | null} */
     this.page = null;
     /** @type {Map<string, State>} The last state of each page. */
     this.states = new Map();
+    /** Ways from one page to another, and steps of undo: one after the other. */
+    this.ways = inOrder((/** @type {() => Promise<unknown>} */ way) => this.go(way));
     this.title = "";
+    /** Why the link that was followed last is not shown. */
+    this.unread = "";
+    /** What the file in the editor is called, for its ending. */
+    this.editing = "model.toml";
     this.timed = 0;
-    this.connection = new Connection((state) => this.connected(state));
+    /** Whether the server has gone. */
+    this.gone = false;
+    /** @type {"connecting" | "open" | "closed"} */
+    this.connected = "connecting";
+    this.connection = new Connection((state, reason) => this.onConnection(state, reason));
+    setInterval(() => this.showConnection(), TIMING_PAUSE);
     this.listen();
-    this.start();
   }
 
+  /** The first page: what the address holds, else what the server was started with. */
   async start() {
-    await this.connection.opened();
-    const given = decode(location.hash);
     const start = await this.connection.ask("start", {});
     this.connection.largest = start.largest_message;
-    byId("family").append(...start.families.map((/** @type {string} */ family) => html("option", { value: family }, [family])));
-    if (given) await this.show(given, false, true);
-    else await this.open(start);
-    this.book();
+    const families = start.families.map((/** @type {string} */ family) => html("option", { value: family }, [family]));
+    byId("family").replaceChildren(byId("family").options[0], ...families);
+    const linked = location.hash.length > 1;
+    if (linked && (await this.follow())) return;
+    await this.show(stateOf(start), { pick: true });
+    // A link that cannot be shown stays as it is until the user does something else.
+    this.book({ fresh: true, address: !linked });
+    this.note(this.unread);
   }
 
-  /** @param {Opened} opened */
-  open(opened) {
-    return this.show(stateOf(opened), true, true);
+  /** Shows what the address holds; what cannot be shown is said. @returns {Promise<boolean>} whether it is shown */
+  async follow() {
+    try {
+      const state = decode(location.hash);
+      if (!state) throw new Refused("it is damaged, or of another version");
+      await this.show(state);
+      this.book({ fresh: true });
+      return true;
+    } catch (error) {
+      if (!(error instanceof Refused)) throw error;
+      this.unread = `This link cannot be read: ${error.message}`;
+      this.note(this.unread);
+      return false;
+    }
   }
 
-  /** @param {State} state @param {boolean} pick @param {boolean} fit */
-  async show(state, pick, fit) {
-    this.note("");
-    for (const tab of document.querySelectorAll("[role=tab]")) tab.setAttribute("aria-selected", String(tab.getAttribute("data-page") === state.page));
-    byId("family-field").hidden = state.page !== "manipulator";
+  /** Leads elsewhere, once what was asked of this page is done. @param {() => Promise<unknown>} way */
+  lead(way) {
+    return this.ways.push(way).catch((error) => this.fail(error));
+  }
+
+  /** @param {() => Promise<unknown>} way */
+  async go(way) {
+    await this.page?.moves.settled();
+    await way();
+  }
+
+  /** Opens what the server gives. @param {Opened} opened */
+  async open(opened) {
+    await this.show(stateOf(opened), { pick: true });
+    this.book({ fresh: true });
+  }
+
+  /**
+   * Shows a state. The server is asked first: where it refuses or is gone, everything stays as it is.
+   * @param {State} state
+   * @param {{ pick?: boolean, fit?: boolean }} [how] whether a mode is taken where none is held, and whether all of it is brought into view
+   */
+  async show(state, { pick = false, fit = true } = {}) {
     const own = JSON.parse(JSON.stringify(state));
-    this.page = own.page === "manipulator" ? new ManipulatorPage(this, own) : own.page === "four_bar" ? new FourBarPage(this, own) : new TrussPage(this, own);
-    await this.page.begin(pick, fit);
+    /** @type {AnyPage} */
+    const page = own.page === "manipulator" ? new ManipulatorPage(this, own) : own.page === "four_bar" ? new FourBarPage(this, own) : new TrussPage(this, own);
+    await page.begin(pick);
+    this.page?.leave();
+    this.page = page;
+    this.states.set(own.page, own);
+    for (const tab of document.querySelectorAll("[role=tab]")) tab.setAttribute("aria-selected", String(tab.getAttribute("data-page") === own.page));
+    byId("family-field").hidden = own.page !== "manipulator";
+    byId("panels").replaceChildren(...page.panels);
+    this.note("");
+    this.say("");
+    if (fit) page.fit();
+    page.tell();
+    this.schedule();
   }
 
   /** Draws the page with the next frame: answers may come faster than pictures. */
@@ -77,66 +137,87 @@ export class App {
     });
   }
 
-  /** Books the page's state, for undo and for the address. */
-  book() {
+  /** Books the page's state, for undo and for the address. @param {{ fresh?: boolean, address?: boolean }} [how] */
+  book({ fresh = false, address = true } = {}) {
     if (!this.page?.answer) return;
-    this.states.set(this.page.state.page, this.page.state);
-    this.history.book(this.page.state);
+    if (this.history.book(this.page.state, fresh) && address) this.history.write();
+    this.showSteps();
+  }
+
+  /** @param {"undo" | "redo"} way */
+  step(way) {
+    return this.lead(async () => {
+      const next = this.history.next(way);
+      if (!next) return;
+      await this.show(next.state, { fit: next.fresh });
+      this.history.step(way);
+      this.showSteps();
+    });
+  }
+
+  showSteps() {
     byId("undo").disabled = this.history.past.length === 0;
     byId("redo").disabled = this.history.future.length === 0;
   }
 
-  /** @param {State | null} state */
-  async restore(state) {
-    if (!state) return;
-    await this.show(state, false, false);
-    byId("undo").disabled = this.history.past.length === 0;
-    byId("redo").disabled = this.history.future.length === 0;
-  }
-
-  /** @param {"connecting" | "open" | "closed"} state */
-  connected(state) {
-    const dot = byId("connection");
-    dot.dataset.state = state;
-    dot.textContent = { connecting: "connecting", open: "connected", closed: "no connection" }[state];
+  /** @param {"connecting" | "open" | "closed"} state @param {string} [reason] */
+  onConnection(state, reason) {
+    this.connected = state;
     if (state === "closed") {
+      this.gone = false;
+      this.note(reason ? `The explorer's server has ended the conversation: ${reason}. What you see stays.`
+        : `The explorer's server has stopped. What you see stays; to go on, run: assur explore ${location.origin}${location.pathname}`);
       this.gone = true;
-      this.note(`The explorer's server has stopped. What you see stays; to go on, run: assur explore ${location.origin}${location.pathname}`);
     }
-    if (state === "open" && this.gone) {
+    if (state === "open") {
+      const again = this.gone;
       this.gone = false;
       this.note("");
-      this.say("connected again");
-      this.page?.begin(false, false);
+      if (!this.page) this.lead(() => this.start());
+      else if (again) {
+        this.say("connected again");
+        this.page.do({ quiet: true });
+      }
     }
+    this.showConnection();
+  }
+
+  showConnection() {
+    const dot = byId("connection");
+    dot.dataset.state = this.connected;
+    const busy = this.connected === "open" && this.connection?.waits() > LONG;
+    write(dot, busy ? "computing …" : { connecting: "connecting", open: "connected", closed: "no connection" }[this.connected]);
   }
 
   /** @param {unknown} error */
   fail(error) {
-    if (error instanceof Unanswered) return;
-    if (error instanceof Refused) this.say(error.message);
+    if (error instanceof Unanswered) this.say("not done: there is no server to ask");
+    else if (error instanceof Refused) this.say(error.message);
     else throw error;
   }
 
   /** A line below. @param {string} text */
   say(text) {
-    const line = byId("message");
-    if (line.textContent !== text) line.textContent = text;
+    write(byId("message"), text);
+  }
+
+  /** How long answers take. */
+  timing() {
     const now = performance.now();
     if (now - this.timed < TIMING_PAUSE) return;
     this.timed = now;
     const timing = this.connection.timing();
-    if (timing) byId("timing").textContent = `${timing.last.toFixed(1)} ms, 95 % below ${timing.p95.toFixed(1)} ms`;
+    if (timing) write(byId("timing"), `${timing.last.toFixed(1)} ms, 95 % below ${timing.p95.toFixed(1)} ms`);
   }
 
   /** A note over the drawing. @param {string} text @param {"alarm" | "note"} [kind] */
   note(text, kind = "alarm") {
+    // That there is no server is said until there is one.
+    if (this.gone) return;
     const notice = byId("notice");
-    if (this.gone && kind === "note") return;
-    if (this.gone && text === "") return;
     notice.hidden = text === "";
     notice.dataset.kind = kind;
-    if (notice.textContent !== text) notice.textContent = text;
+    write(notice, text);
   }
 
   /** @param {string} title @param {string} below */
@@ -147,25 +228,34 @@ export class App {
     document.title = `${title} · assur`;
   }
 
-  /** @param {...Node} panels */
-  panels(...panels) {
-    byId("panels").replaceChildren(...panels);
-  }
-
-  /** The problem's file as text. */
-  async text() {
+  /** The problem's file: its text and ending. Without a server a model is given as JSON, which needs none. */
+  async file() {
     const state = this.page?.state;
-    if (state?.page === "manipulator") return (await this.connection.ask("write", { model: state.model })).text;
-    return state ? `${JSON.stringify(state.file, null, 2)}\n` : "";
+    if (state?.page === "manipulator") {
+      try {
+        return { text: (await this.connection.ask("write", { model: state.model })).text, ending: "toml" };
+      } catch (error) {
+        if (!(error instanceof Unanswered)) throw error;
+      }
+    }
+    const shown = state?.page === "manipulator" ? state.model : state?.file;
+    return { text: `${JSON.stringify(shown, null, 2)}\n`, ending: "json" };
   }
 
-  get ending() {
-    return this.page?.state.page === "manipulator" ? "toml" : "json";
+  async exportModel() {
+    try {
+      const { text, ending } = await this.file();
+      download(new Blob([text], { type: "text/plain" }), `${fileName(this.title)}.${ending}`);
+    } catch (error) {
+      this.fail(error);
+    }
   }
 
   async edit() {
     try {
-      byId("editor-text").value = await this.text();
+      const { text, ending } = await this.file();
+      this.editing = `model.${ending}`;
+      byId("editor-text").value = text;
       byId("editor-error").textContent = "";
       byId("editor").showModal();
     } catch (error) {
@@ -173,65 +263,59 @@ export class App {
     }
   }
 
+  /** Takes the editor's text; it stays open, with all that was typed, until that has succeeded. */
   async apply() {
     try {
       /** @type {Opened} */
-      const opened = await this.connection.ask("open", { text: byId("editor-text").value, file: `model.${this.ending}` });
-      byId("editor").close();
+      const opened = await this.connection.ask("open", { text: byId("editor-text").value, file: this.editing });
       const page = this.page;
       // The same kind of thing is a change of this one: its mode is followed.
-      if (page instanceof ManipulatorPage && opened.kind === "manipulator") page.pull({ handle: "design", model: opened.model }, true);
-      else await this.open(opened).then(() => this.book());
+      if (page instanceof ManipulatorPage && opened.kind === "manipulator") await page.moves.push(page.wish({ handle: "design", model: opened.model }, true));
+      else await this.ways.push(() => this.open(opened));
+      byId("editor").close();
     } catch (error) {
       byId("editor-error").textContent = error instanceof Error ? error.message : String(error);
     }
   }
 
   /** @param {File} file */
-  async read(file) {
+  read(file) {
     if (file.size > this.connection.largest) return this.say(`${file.name}: too large, ${file.size} of at most ${this.connection.largest} bytes`);
-    try {
-      await this.open(await this.connection.ask("open", { text: await file.text(), file: file.name }));
-      this.book();
-    } catch (error) {
-      this.fail(error);
-    }
+    return this.lead(async () => this.open(await this.connection.ask("open", { text: await file.text(), file: file.name })));
   }
 
   /** @param {string} family */
-  async family(family) {
-    try {
-      await this.open(await this.connection.ask("new", { family }));
-      this.book();
-    } catch (error) {
-      this.fail(error);
-    }
+  family(family) {
+    return this.lead(async () => this.open(await this.connection.ask("new", { family })));
   }
 
-  async tab(/** @type {string} */ page) {
-    const first = /** @type {Record<string, State | undefined>} */ ({
-      manipulator: this.states.get("manipulator"),
-      four_bar: { page: "four_bar", file: FIRST_FOUR_BAR, place: { circuit: 0, tau: 0.8 } },
-      truss: { page: "truss", file: FIRST_TRUSS },
+  /** @param {string} page */
+  tab(page) {
+    return this.lead(async () => {
+      if (page === this.page?.state.page) return;
+      const first = /** @type {Record<string, State | undefined>} */ ({
+        four_bar: { page: "four_bar", file: FIRST_FOUR_BAR, place: { circuit: 0, tau: 0.8 } },
+        truss: { page: "truss", file: FIRST_TRUSS },
+      });
+      const state = this.states.get(page) ?? first[page];
+      if (!state) return this.open(await this.connection.ask("new", { family: "3-RPR" }));
+      await this.show(state);
+      this.book({ fresh: true });
     });
-    const state = this.states.get(page) ?? first[page];
-    if (state) await this.show(state, false, true);
-    else await this.open(await this.connection.ask("new", { family: "3-RPR" }));
-    this.book();
   }
 
   theme() {
     const root = document.documentElement;
     root.dataset.theme = root.dataset.theme === "dark" ? "light" : "dark";
     localStorage.setItem("assur-theme", root.dataset.theme);
-    if (this.page instanceof ManipulatorPage) this.page.slow.push(null);
+    if (this.page instanceof ManipulatorPage) this.page.mapSoon(true);
   }
 
   listen() {
     const click = (/** @type {string} */ id, /** @type {() => unknown} */ act) => byId(id).addEventListener("click", act);
     const name = () => fileName(this.title);
-    click("undo", () => this.restore(this.history.undo()));
-    click("redo", () => this.restore(this.history.redo()));
+    click("undo", () => this.step("undo"));
+    click("redo", () => this.step("redo"));
     click("open", () => byId("file").click());
     byId("file").addEventListener("change", () => {
       const input = byId("file");
@@ -245,16 +329,22 @@ export class App {
       select.blur();
     });
     for (const tab of document.querySelectorAll("[role=tab]")) tab.addEventListener("click", () => this.tab(tab.getAttribute("data-page") ?? ""));
-    click("export-model", async () => download(new Blob([await this.text()], { type: "text/plain" }), `${name()}.${this.ending}`));
+    click("export-model", () => this.exportModel());
     click("export-svg", () => download(new Blob([picture(byId("stage"), this.title)], { type: "image/svg+xml" }), `${name()}.svg`));
     click("export-png", async () => download(await pixels(byId("stage"), this.title), `${name()}.png`));
     click("export-link", async () => {
       this.book();
+      this.history.write();
       await navigator.clipboard.writeText(location.href).then(() => this.say("address copied"), () => this.say("the address of this page shows this view"));
     });
+    // A menu closes with a choice, and with a press elsewhere.
     byId("export").addEventListener("click", (/** @type {Event} */ event) => {
       if (event.target instanceof HTMLButtonElement) byId("export").open = false;
     });
+    document.addEventListener("pointerdown", (event) => {
+      if (event.target instanceof Node && !byId("export").contains(event.target)) byId("export").open = false;
+    });
+    addEventListener("hashchange", () => location.hash.length > 1 && this.lead(() => this.follow()));
     click("theme", () => this.theme());
     click("help", () => byId("keys").showModal());
     click("zoom-in", () => this.stage.zoom(1.25));
@@ -282,8 +372,7 @@ export class App {
     const key = event.key.toLowerCase();
     if ((event.ctrlKey || event.metaKey) && !typing && (key === "z" || key === "y")) {
       event.preventDefault();
-      const back = key === "z" && !event.shiftKey;
-      this.restore(back ? this.history.undo() : this.history.redo());
+      this.step(key === "z" && !event.shiftKey ? "undo" : "redo");
       return;
     }
     if (typing || event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")) return;
@@ -291,7 +380,7 @@ export class App {
     /** @type {Record<string, () => void>} */
     const keys = {
       f: () => this.fit(), "+": () => this.stage.zoom(1.25), "=": () => this.stage.zoom(1.25), "-": () => this.stage.zoom(0.8), o: () => byId("file").click(), d: () => this.theme(),
-      "?": () => byId("keys").showModal(), p: () => manipulator?.prove(), l: () => manipulator?.toggleLoci(),
+      escape: () => { byId("export").open = false; }, "?": () => byId("keys").showModal(), p: () => manipulator?.prove(), l: () => manipulator?.toggleLoci(),
     };
     if (/^[1-9]$/.test(key)) this.page?.hold(Number(key) - 1);
     else keys[key]?.();

@@ -1,10 +1,12 @@
 // The page of manipulators: all assembly modes of one, and what can be pulled.
 
 import { Circle } from "./circle.js";
-import { latest } from "./connection.js";
-import { button, choice, facts, panel } from "./panels.js";
+import { Refused, Unanswered } from "./connection.js";
+import { Page } from "./page.js";
+import { Cells, Facts, NumberField, Rows, button, choice, onSlide, panel } from "./panels.js";
 import { Plane } from "./plane.js";
-import { degrees, html, number, radians } from "./svg.js";
+import { inOrder, seldom } from "./queue.js";
+import { degrees, html, number, radians, set, write } from "./svg.js";
 
 /**
  * @typedef {import("./types.js").ManipulatorState} ManipulatorState
@@ -14,7 +16,10 @@ import { degrees, html, number, radians } from "./svg.js";
  * @typedef {import("./types.js").Model} Model
  * @typedef {import("./types.js").Region} Region
  * @typedef {import("./main.js").App} App
+ * @typedef {import("./types.js").Actuator} Actuator
+ * @typedef {import("./types.js").Wish} Wish
  * @typedef {{ model: Model, inputs: number[], mode: Held | null, tones: number[] }} Anchor
+ * @typedef {{ handle: string, leg?: number, number?: number, [more: string]: unknown }} Pull
  */
 
 const TONES = 6;
@@ -23,60 +28,66 @@ const CELLS = { still: 160, moving: 48 };
 /** Slow questions while something is pulled come no more often than this, in milliseconds. */
 const SLOW_PAUSE = 180;
 
+/** A workspace that takes longer than this, in milliseconds, is asked for beside a drag and not with each of its steps. */
+const QUICK_REGION = 40;
 /** The panels while something is pulled change no more often than this, in milliseconds. */
 const PANEL_PAUSE = 80;
 
 const HANDLES = /** @type {Record<string, string>} */ ({
-  base: "base point of leg", base_axis: "slider direction of leg", platform: "platform point of leg", platform_axis: "platform slider of leg", pose: "platform", turn: "turn the platform",
+  base: "base point of leg", base_axis: "slider direction of leg", middle_axis: "middle slider's direction of leg", platform: "platform point of leg", platform_axis: "platform slider of leg", pose: "platform", turn: "turn the platform",
 });
 
 const EVENTS = /** @type {Record<string, string>} */ ({
-  meeting: "This mode meets another and both end. Pull back, or take another mode.",
-  branch: "The mode cannot be told from another any more here. Pull back, or take another mode.",
+  meeting: "This mode meets another and both end.",
+  branch: "The mode cannot be told from another any more here.",
   self_motion: "Here the platform moves with all actuators held: a self-motion.",
-  lost: "The mode is lost in this change; take another.",
+  lost: "The mode is lost in this change.",
   crossing: "Singular: two modes meet, and the platform passes from one to the other.",
   stopped: "A limit, or the end of a leg's reach.",
 });
 
-const WORKSPACES = /** @type {[string, string][]} */ ([
+export const WORKSPACES = /** @type {[string, string][]} */ ([
   ["", "none"], ["constant", "this orientation"], ["maximal", "maximal"], ["inclusive", "inclusive"], ["total", "total"], ["dextrous", "dextrous"],
 ]);
 
-export class ManipulatorPage {
+/** @extends {Page<ManipulatorState, Moved>} */
+export class ManipulatorPage extends Page {
   /** @param {App} app @param {ManipulatorState} state */
   constructor(app, state) {
-    this.app = app;
-    this.state = state;
-    /** @type {Moved | null} */
-    this.answer = null;
-    /** @type {number[]} */
+    super(app, state);
+    /** @type {number[]} For each mode a number that stays with it through a change. */
     this.tones = [];
-    /** @type {Anchor} Where the next pull starts from: the last state in which a mode was held. */
-    this.anchor = { model: state.model, inputs: state.inputs, mode: state.mode, tones: [] };
+    /** @type {Anchor} The last state in which a mode was held. */
+    this.anchor = this.present();
+    /** What was pulled last. */
+    this.pulled = "";
     /** @type {Region | null} */
     this.region = null;
     this.regionError = "";
-    this.regionErrorShown = "";
+    /** What the workspace is of, where it was asked for by itself. */
+    this.regionKey = "";
+    /** What the last workspace of this kind took, in milliseconds. */
+    this.regionTime = Infinity;
     this.provedKey = "";
     /** @type {import("./types.js").Loci | null} */
     this.loci = null;
-    this.lociKey = "";
-    this.planeKey = "";
-    this.pulling = false;
-    this.lastSlow = 0;
-    this.lastPanels = 0;
-    this.moves = latest((/** @type {{ pull: object | null, pick?: boolean, fit?: boolean, book?: boolean }} */ wish) => this.move(wish));
-    this.slow = latest((/** @type {null} */ _) => this.askSlowly());
+    /** @type {Map<string, string>} What the maps and curves at hand were asked about. */
+    this.known = new Map();
+    this.slow = inOrder((/** @type {null} */ _) => this.askSlowly(), () => true);
+    this.mapSoon = seldom(SLOW_PAUSE, () => this.slow.push(null));
+    this.numbersSoon = seldom(PANEL_PAUSE, () => this.drawPanels());
+    /** @type {{ slider: HTMLInputElement, field: NumberField, ends: NumberField[], draw: (actuator: Actuator, q: number) => void }[]} */
+    this.actuators = [];
     this.inputs = html("div");
-    this.account = html("div", { class: "account", role: "img" });
+    this.account = new Cells();
     this.summary = html("p", { class: "quiet" });
-    this.list = html("ul", { class: "modes" });
-    this.poseNumbers = html("div", { class: "numbers" });
+    this.list = new Rows((k) => this.hold(k));
+    this.place = ["x", "y", "φ (°)"].map((name, k) => new NumberField(`Platform ${name}`, (value) => this.moveTo(k, value)));
+    this.poseFacts = new Facts();
     this.circle = new Circle();
     this.plane = new Plane({
       pull: (pair, values) => {
-        const inputs = [...this.anchor.inputs];
+        const inputs = [...this.state.inputs];
         pair.forEach((input, k) => { inputs[input] = values[k]; });
         this.pull({ handle: "inputs", values: inputs });
       },
@@ -85,75 +96,81 @@ export class ManipulatorPage {
     this.proof = html("div");
     this.pairs = choice([["0,1", "q1, q2"], ["0,2", "q1, q3"], ["1,2", "q2, q3"]], (pair) => {
       this.state.pair = /** @type {Point} */ (pair.split(",").map(Number));
-      this.slow.push(null);
+      this.mapSoon(true);
       this.app.book();
     }, "Which actuators");
     this.pairs.value = this.state.pair.join(",");
     this.kind = choice(WORKSPACES, (kind) => {
       this.state.workspace.kind = kind;
-      this.refresh();
+      this.takeRegion(null, "");
+      this.regionTime = Infinity;
+      this.do({ book: true });
     }, "Kind of workspace");
     this.kind.id = "workspace";
     this.kind.value = this.state.workspace.kind;
-    this.range = html("div", { class: "numbers" });
-    for (const end of /** @type {("from" | "to")[]} */ (["from", "to"])) {
-      const field = html("input", { type: "number", step: "any", "aria-label": `Orientation ${end}, degrees` });
-      field.value = String(Number(degrees(this.state.workspace[end]).toFixed(6)));
-      field.addEventListener("change", () => {
-        if (!Number.isFinite(field.valueAsNumber)) return;
-        this.state.workspace[end] = radians(field.valueAsNumber);
-        this.refresh();
+    const ends = /** @type {("from" | "to")[]} */ (["from", "to"]).map((end) => {
+      const field = new NumberField(`Orientation ${end}, degrees`, (value) => {
+        if (!Number.isFinite(value)) return Promise.reject();
+        this.state.workspace[end] = radians(value);
+        return this.do({ book: true });
       });
-      this.range.append(html("label", {}, [`${end} (°)`, field]));
-    }
-    this.regionFacts = html("div");
-    this.lociButton = button("show", () => this.toggleLoci(), { id: "loci", "aria-pressed": String(this.state.loci) });
-    this.facts = html("div");
-    this.app.panels(
+      field.show(String(Number(degrees(this.state.workspace[end]).toFixed(6))));
+      return html("label", {}, [`${end} (°)`, field.element]);
+    });
+    this.range = html("div", { class: "numbers" }, ends);
+    this.regionFacts = new Facts();
+    this.regionWord = html("p", { class: "tag bad" });
+    this.bound = html("p", {}, [button("Limit every actuator to its slider", () => this.pull({ handle: "bound" }, true), { id: "bound" })]);
+    this.lociButton = button("", () => this.toggleLoci(), { id: "loci" });
+    this.showLoci();
+    this.panels = [
       panel("Actuators", [this.inputs]),
-      panel("Assembly modes", [this.account, this.summary, this.list]),
-      panel("Workspace", [this.range, this.regionFacts], [this.kind]),
-      panel("Platform", [this.poseNumbers, this.facts]),
+      panel("Assembly modes", [this.account.element, this.summary, this.list.element]),
+      panel("Workspace", [this.range, this.regionFacts.element, this.regionWord, this.bound], [this.kind]),
+      panel("Platform", [html("div", { class: "numbers" }, this.place.map((field, k) => html("label", {}, [["x", "y", "φ (°)"][k], field.element]))), this.poseFacts.element]),
       panel("Orientations: roots of the eliminant", [this.circle.element]),
       panel("Modes over two actuators", [this.plane.element], [this.pairs]),
       panel("Singular positions", [html("p", { class: "quiet" }, ["Of this orientation and working mode: two assembly modes meet (line), a leg stretches or folds (dashes)."])], [this.lociButton]),
       panel("Proof", [this.proof], [button("prove", () => this.prove(), { id: "prove" })]),
       panel("Design", [button("Edit as text …", () => this.app.edit(), { id: "edit" })]),
-    );
+    ];
   }
 
-  /** @param {boolean} pick whether a mode is taken where none is held @param {boolean} fit */
-  begin(pick, fit) {
-    this.moves.push({ pull: null, pick, fit });
-    return this.moves.settled();
+  /** What is shown. @returns {Anchor} */
+  present() {
+    const { model, inputs, mode } = this.state;
+    return { model, inputs, mode, tones: this.tones };
   }
 
-  /** @param {{ pull: object | null, pick?: boolean, fit?: boolean, book?: boolean }} wish */
-  async move({ pull, pick = false, fit = false, book = false }) {
-    const { model, inputs, mode, tones } = this.anchor;
-    const wish = this.workspaceWish();
-    try {
-      /** @type {Moved} */
-      const answer = await this.app.connection.ask("move", { model, inputs, mode, pick, pull, workspace: wish });
-      this.take(answer, mode !== null, tones);
-      if (book) this.settle();
-      if (fit) this.fit();
-      this.app.schedule();
-      this.app.say(changesLimits(pull) && answer.inputs.some((q, k) => q !== inputs[k]) ? "An actuator stood outside its new limits and has moved to their end." : "");
-      this.slow.push(null);
-      if (book) this.app.book();
-    } catch (error) {
-      // The last good state stays.
-      this.app.fail(error);
+  /** Where a wish starts from. While the same thing is pulled on, from where a mode was held last, so that pulling back finds one that has ended. @param {Wish} wish @returns {Anchor} */
+  start({ key, take }) {
+    if (take !== undefined) {
+      const mode = this.answer?.report.modes[this.tones.indexOf(take)];
+      if (!mode) throw new Refused("that mode has ended meanwhile");
+      return { ...this.present(), mode: { pose: mode.pose, signs: mode.signs ?? "" } };
     }
+    return key && key === this.pulled ? this.anchor : this.present();
   }
 
-  /** @param {Moved} answer @param {boolean} held whether a mode was held @param {number[]} tones */
-  take(answer, held, tones) {
-    const used = new Set(answer.came_from.flatMap((from) => (from === null ? [] : [tones[from]])));
+  /** @param {Wish} wish */
+  async ask(wish) {
+    const { pull = null, pick = false } = wish;
+    const from = this.start(wish);
+    const { model, inputs, mode } = from;
+    const workspace = this.regionTime <= QUICK_REGION ? this.workspaceWish() : null;
+    /** @type {Moved} */
+    const answer = await this.app.connection.ask("move", { model, inputs, mode, pick, pull, workspace });
+    this.pulled = wish.key ?? "";
+    this.take(answer, from);
+    return changesLimits(pull) && answer.inputs.some((q, k) => !same(q, inputs[k], answer.actuators[k].angle)) ? "An actuator stood outside its new limits and has moved to their end." : "";
+  }
+
+  /** @param {Moved} answer @param {Anchor} from what was asked about */
+  take(answer, from) {
+    const used = new Set(answer.came_from.flatMap((before) => (before === null ? [] : [from.tones[before]])));
     let free = 0;
-    this.tones = answer.came_from.map((from) => {
-      if (from !== null && tones[from] !== undefined) return tones[from];
+    this.tones = answer.came_from.map((before) => {
+      if (before !== null && from.tones[before] !== undefined) return from.tones[before];
       while (used.has(free)) free += 1;
       used.add(free);
       return free;
@@ -162,99 +179,172 @@ export class ManipulatorPage {
     const current = answer.current === null ? null : answer.report.modes[answer.current];
     const mode = current ? { pose: current.pose, signs: current.signs ?? "" } : null;
     Object.assign(this.state, { model: answer.model, inputs: answer.inputs, mode });
-    // A pull on which the mode ends is measured from where it last was, so that pulling back finds it again.
-    if (mode || !held) this.anchor = { model: answer.model, inputs: answer.inputs, mode, tones: this.tones };
-    if (answer.workspace !== undefined && answer.workspace !== null) {
-      this.region = "error" in answer.workspace ? null : answer.workspace;
-      this.regionError = "error" in answer.workspace ? answer.workspace.error : "";
-    }
-    if (answer.event) this.app.note(EVENTS[answer.event.kind], answer.event.kind === "stopped" || answer.event.kind === "crossing" ? "note" : "alarm");
-    else this.app.note("");
+    this.anchor = mode ? this.present() : from;
+    if (answer.workspace) this.takeRegion(answer.workspace, "");
+    // One of another mechanism is not shown.
+    else if (!this.state.workspace.kind || this.regionKey !== this.regionAbout()) this.takeRegion(null, "");
+  }
+
+  /** @param {Region | { error: string } | null} workspace @param {string} key what it is of, where it was asked for by itself */
+  takeRegion(workspace, key) {
+    this.regionKey = key;
+    this.region = workspace && !("error" in workspace) ? workspace : null;
+    this.regionError = workspace && "error" in workspace ? workspace.error : "";
+    if (workspace) this.regionTime = (this.region?.micros ?? 0) / 1000;
+  }
+
+  /** What a workspace depends on. */
+  regionAbout() {
+    const { model, mode, workspace } = this.state;
+    return JSON.stringify([model, workspace, workspace.kind === "constant" ? mode?.pose[2] : null]);
+  }
+
+  tell() {
+    const { event, current, report } = this.answer ?? { event: null };
+    const on = !event || current !== null ? "" : report?.modes.length ? " Pull back, or take another mode." : " Pull back.";
+    this.app.note(event ? EVENTS[event.kind] + on : "", event?.kind === "stopped" || event?.kind === "crossing" ? "note" : "alarm");
+    this.mapSoon(!this.pulling);
   }
 
   /** Takes hold of another mode. @param {number} index */
   hold(index) {
-    const mode = this.answer?.report.modes[index];
-    if (!mode) return;
-    this.anchor = { model: this.state.model, inputs: this.state.inputs, mode: { pose: mode.pose, signs: mode.signs ?? "" }, tones: this.tones };
-    this.moves.push({ pull: null, book: true });
+    if (index < this.tones.length) this.do({ take: this.tones[index], book: true });
   }
 
-  /** @param {object} pull @param {boolean} [done] whether this ends the pull */
+  /** @param {Pull} pull @param {boolean} done whether this is all of it @returns {Wish} */
+  wish(pull, done) {
+    return { pull, key: `${pull.handle} ${pull.leg ?? pull.number ?? ""}`, drag: !done, book: done };
+  }
+
+  /** @param {Pull} pull @param {boolean} [done] whether this is all of it */
   pull(pull, done = false) {
     this.pulling = !done;
-    this.moves.push({ pull, book: done });
+    return this.do(this.wish(pull, done));
   }
 
-  grab() {
-    this.pulling = true;
+  /** A number that was typed; whoever typed it learns of a refusal. @param {Pull} pull */
+  async give(pull) {
+    this.pulling = false;
+    try {
+      await this.moves.push(this.wish(pull, true));
+    } catch (error) {
+      this.app.fail(error);
+      throw error;
+    }
   }
 
   /** @param {string} key @param {Point} to */
   pullHandle(key, to) {
     const [handle, leg] = key.split(":");
-    this.pull(leg === undefined ? { handle, to } : { handle, leg: Number(leg), to });
+    if (leg === undefined) return this.pull({ handle, to });
+    const number = Number(leg);
+    const from = this.answer?.handles.find((other) => other.handle === handle && other.leg === number)?.from;
+    return this.pull({ handle, leg: number, to, from });
   }
 
-  /** A pull has ended: if the mode has ended in it, nothing is held from here on. */
-  settle() {
-    if (this.answer && this.answer.current === null) this.anchor = { model: this.state.model, inputs: this.state.inputs, mode: null, tones: this.tones };
-  }
-
-  async drop() {
-    this.pulling = false;
-    await this.moves.settled();
-    this.settle();
-    this.app.schedule();
-    this.app.book();
-    this.slow.push(null);
+  /** Takes the platform to a number typed. @param {number} axis of the pose @param {number} value */
+  moveTo(axis, value) {
+    const { mode } = this.state;
+    if (!mode || !Number.isFinite(value)) return Promise.reject();
+    const to = [...mode.pose];
+    to[axis] = axis === 2 ? radians(value) : value;
+    return this.give({ handle: "place", to });
   }
 
   // Slow answers: curves and maps, only where something they depend on has changed.
 
   async askSlowly() {
-    const now = performance.now();
-    if (this.pulling && now - this.lastSlow < SLOW_PAUSE) return;
-    this.lastSlow = now;
+    if (!this.shown) return;
     const { model, inputs, mode, pair } = this.state;
     const others = inputs.filter((_, k) => !pair.includes(k));
     const size = this.pulling ? CELLS.moving : CELLS.still;
-    const planeKey = JSON.stringify([model, others, pair, size, document.documentElement.dataset.theme]);
-    try {
-      if (planeKey !== this.planeKey) {
-        const plane = await this.app.connection.ask("plane", { model, inputs, pair, size: [size, size] });
-        this.planeKey = planeKey;
-        this.plane.draw(plane, this.answer?.actuators ?? []);
-        this.plane.point(this.state.inputs);
-      }
-      const lociKey = JSON.stringify([model, mode?.pose[2], mode?.signs]);
-      if (this.state.loci && mode && lociKey !== this.lociKey) {
-        this.loci = await this.app.connection.ask("loci", { model, phi: mode.pose[2], signs: mode.signs });
-        this.lociKey = lociKey;
-        this.app.schedule();
-      }
-    } catch (error) {
-      this.app.fail(error);
+    const plane = await this.renewed("plane", [model, others, pair, size, document.documentElement.dataset.theme], { model, inputs, pair, size: [size, size] });
+    if (plane !== undefined) {
+      this.plane.draw(plane, this.answer?.actuators ?? []);
+      this.plane.point(this.state.inputs);
     }
+    const phi = mode?.pose[2];
+    const loci = this.state.loci && mode ? await this.renewed("loci", [model, phi, mode.signs], { model, phi, signs: mode.signs }) : undefined;
+    if (loci !== undefined) {
+      this.loci = loci;
+      this.app.schedule();
+    }
+    await this.askRegion();
     // What changed meanwhile asks again by itself; at rest the map is asked for in full.
-    if (!this.pulling && size === CELLS.moving) this.slow.push(null);
+    if (this.shown && !this.pulling && size === CELLS.moving) this.slow.push(null);
+  }
+
+  /** A workspace that is not asked for with each move. */
+  async askRegion() {
+    const wish = this.workspaceWish();
+    if (!this.shown || !wish || this.region || this.regionError) return;
+    const about = this.regionAbout();
+    const { model, mode } = this.state;
+    /** @type {Region | { error: string }} */
+    let region;
+    try {
+      region = await this.app.connection.ask("workspace", { model, pose: mode?.pose, workspace: wish });
+    } catch (error) {
+      // Without a server there is none yet; refused, there is a reason.
+      if (error instanceof Unanswered) return;
+      if (!(error instanceof Refused)) throw error;
+      region = { error: error.message };
+    }
+    if (!this.answer || about !== this.regionAbout()) return;
+    this.answer.workspace = region;
+    this.takeRegion(region, about);
+    if (this.shown) this.app.schedule();
+  }
+
+  /** The answer where it may have changed; undefined where it has not, null where there is none. @param {string} kind @param {unknown} about @param {object} question */
+  async renewed(kind, about, question) {
+    const key = JSON.stringify(about);
+    if (this.known.get(kind) === key) return undefined;
+    try {
+      const answer = await this.app.connection.ask(kind, question);
+      this.known.set(kind, key);
+      return this.shown ? answer : undefined;
+    } catch (error) {
+      if (!this.shown) return undefined;
+      this.app.fail(error);
+      if (!(error instanceof Refused)) return undefined;
+      this.known.set(kind, key);
+      return null;
+    }
   }
 
   async prove() {
-    this.proof.replaceChildren(html("p", { class: "quiet" }, ["proving …"]));
     const { model, inputs } = this.state;
+    const key = this.proofKey();
+    this.provedKey = key;
+    this.proof.replaceChildren(html("p", { class: "quiet" }, ["proving …"]));
     try {
       const { report } = await this.app.connection.ask("prove", { model, inputs });
+      // What was pulled meanwhile is not what was proved.
+      if (!this.shown || !this.stillProved(key)) return;
       const verdicts = report.modes.map((/** @type {import("./types.js").Mode} */ mode, /** @type {number} */ k) => `${k + 1} ${mode.proof}`).join(", ");
       this.proof.replaceChildren(
         html("p", { class: report.certificate.complete ? "tag good" : "tag bad" }, [report.certificate.summary]),
         html("p", { class: "tag" }, [verdicts || "no mode"]),
       );
-      this.provedKey = JSON.stringify([model, inputs]);
     } catch (error) {
-      this.proof.replaceChildren();
+      if (!this.shown) return;
+      if (this.provedKey === key) this.proof.replaceChildren();
       this.app.fail(error);
     }
+  }
+
+  proofKey() {
+    return JSON.stringify([this.state.model, this.state.inputs]);
+  }
+
+  /** Whether a proof is of what is shown; one that is not is taken away. @param {string} key */
+  stillProved(key) {
+    if (this.provedKey !== key) return false;
+    if (key === this.proofKey()) return true;
+    this.provedKey = "";
+    this.proof.replaceChildren();
+    return false;
   }
 
   // Drawing.
@@ -285,6 +375,7 @@ export class ManipulatorPage {
     if (this.region && this.state.workspace.kind) {
       for (const points of this.region.loops) shapes.push({ class: "region", points, closed: true });
       for (const points of this.region.separating) shapes.push({ class: "separating", points, closed: false });
+      for (const point of this.region.isolated) shapes.push({ class: "region-point", points: [point], closed: true });
     }
     if (this.loci && this.state.loci && this.state.mode) {
       for (const mode of this.loci.report.type_2.modes) for (const points of mode.pieces) shapes.push({ class: "locus-2", points, closed: false });
@@ -293,16 +384,14 @@ export class ManipulatorPage {
     stage.background(shapes);
     const held = answer.event && answer.event.kind !== "stopped" ? [answer.event.pose] : [];
     stage.rings([...held, ...answer.ended].map((pose) => [pose[0], pose[1]]));
-    stage.handles(answer.handles.map(({ handle, leg, at, origin }) => ({
-      key: leg === undefined ? handle : `${handle}:${leg}`, label: leg === undefined ? HANDLES[handle] : `${HANDLES[handle]} ${leg + 1}`, at, origin, axis: handle.endsWith("axis") || handle === "turn",
+    stage.handles(answer.handles.map(({ handle, leg, at, origin, from }) => ({
+      key: leg === undefined ? handle : `${handle}:${leg}`, label: leg === undefined ? HANDLES[handle] : `${HANDLES[handle]} ${leg + 1}`, at, origin, from, axis: handle.endsWith("axis") || handle === "turn",
+      body: handle === "pose",
     })));
     const { account } = answer.report;
     app.caption(answer.model.name || answer.family, `${answer.family}, ${count(answer)}, degree ${account.degree}`);
     // Numbers that change sixty times a second cannot be read.
-    const now = performance.now();
-    if (this.pulling && now - this.lastPanels < PANEL_PAUSE) return;
-    this.lastPanels = now;
-    this.drawPanels(answer);
+    this.numbersSoon(!this.pulling);
   }
 
   /** Everything of ordinary size: modes that run far away are left out. */
@@ -314,20 +403,22 @@ export class ManipulatorPage {
     const reach = 6 * answer.size;
     const middle = handles[0] ?? [0, 0];
     const near = answer.drawings.flatMap((marks) => marks.filter((mark) => mark.mark !== "frame").flatMap((mark) => mark.at)).filter((p) => Math.hypot(p[0] - middle[0], p[1] - middle[1]) < reach);
-    this.app.stage.fit([...bases, ...handles, ...near]);
-  }
-
-  refresh() {
-    this.moves.push({ pull: null, book: true });
+    const region = this.region ? [...this.region.loops.flat(), ...this.region.separating.flat(), ...this.region.isolated] : [];
+    this.app.stage.fit([...bases, ...handles, ...near, ...region]);
   }
 
   toggleLoci() {
     this.state.loci = !this.state.loci;
-    this.lociButton.setAttribute("aria-pressed", String(this.state.loci));
-    this.lociButton.textContent = this.state.loci ? "hide" : "show";
-    this.slow.push(null);
+    this.showLoci();
+    if (this.state.loci && !this.state.mode) this.app.say("No mode is held, so there is no orientation to show singular positions of.");
+    this.mapSoon(true);
     this.app.schedule();
     this.app.book();
+  }
+
+  showLoci() {
+    this.lociButton.setAttribute("aria-pressed", String(this.state.loci));
+    this.lociButton.textContent = this.state.loci ? "hide" : "show";
   }
 
   workspaceWish() {
@@ -335,114 +426,109 @@ export class ManipulatorPage {
     return kind ? { kind, from, to } : null;
   }
 
-  /** @param {Moved} answer */
-  drawPanels(answer) {
-    if (this.inputs.children.length !== answer.actuators.length) {
-      this.inputs.replaceChildren(...answer.actuators.map((actuator, k) => this.actuator(actuator, k)));
+  drawPanels() {
+    const { answer } = this;
+    if (!answer || !this.shown) return;
+    if (this.actuators.length !== answer.actuators.length) {
+      this.inputs.replaceChildren();
+      this.actuators = answer.actuators.map((actuator, k) => this.actuator(actuator, k));
     }
-    answer.actuators.forEach((actuator, k) => {
-      const shown = actuator.angle ? degrees(answer.inputs[k]) : answer.inputs[k];
-      const [low, high] = actuator.range.map((v) => (actuator.angle ? degrees(v) : v));
-      const row = this.inputs.children[k];
-      const [slider, field] = row.querySelectorAll("input");
-      slider.min = String(low);
-      slider.max = String(high);
-      slider.step = String((high - low) / 2000);
-      if (document.activeElement !== slider) slider.value = String(shown);
-      if (document.activeElement !== field) field.value = String(Number(shown.toPrecision(7)));
-      row.querySelector("span")?.replaceChildren(`q${k + 1}  ${actuator.angle ? "turn" : "slide"}`);
-      const ends = [.../** @type {NodeListOf<HTMLInputElement>} */ (row.querySelectorAll(".ends input"))];
-      ends.forEach((end, side) => {
-        const bound = Number((side === 0 ? low : high).toPrecision(7));
-        end.placeholder = "none";
-        if (document.activeElement !== end) end.value = actuator.limited ? String(bound) : "";
-      });
-    });
+    this.actuators.forEach(({ draw }, k) => draw(answer.actuators[k], answer.inputs[k]));
     const { account, modes } = answer.report;
-    const cells = [...Array(account.real).fill("real"), ...Array(account.complex).fill("complex"), ...Array(Math.max(0, account.degree - account.real - account.complex)).fill("other")];
-    this.account.replaceChildren(...cells.map((kind) => html("span", { class: kind })));
-    this.account.setAttribute("aria-label", `of degree ${account.degree}: ${account.real} real, ${account.complex} complex`);
+    const others = Math.max(0, account.degree - account.real - account.complex);
+    this.account.draw(
+      [...Array(account.real).fill("real"), ...Array(account.complex).fill("complex"), ...Array(others).fill("other")],
+      `of degree ${account.degree}: ${account.real} real, ${account.complex} complex`,
+    );
     const rest = [[account.complex, "complex"], [account.at_infinity, "at infinity"], [account.rejected, "rejected"], [account.self_motion, "on a self-motion"], [account.undecided, "undecided"]];
     const parts = rest.filter(([n]) => n).map(([n, name]) => `${n} ${name}`);
-    this.summary.replaceChildren(`${account.real} real${parts.length ? `, ${parts.join(", ")}` : ""}, of degree ${account.degree}`);
-    this.list.replaceChildren(...modes.map((mode, k) => {
-      const tags = [mode.multiplicity > 1 ? `${mode.multiplicity}-fold` : "", mode.violations.length ? "outside limits" : ""].filter(Boolean).join(", ");
-      const row = html("button", { "data-tone": this.tones[k] % TONES, "aria-pressed": String(k === answer.current), title: `det A = ${mode.det_a.toExponential(3)}` }, [
-        html("span", { class: "swatch" }, [html("b", {}, [String(k + 1)])]),
-        html("span", { class: "text" }, [`φ ${number(Number(degrees(mode.pose[2]).toFixed(2)))}°`]),
-        html("span", { class: "tag bad" }, [tags]),
-        html("span", { class: "tag" }, [(mode.signs ?? "").replaceAll("-", "−")]),
-      ]);
-      row.addEventListener("click", () => this.hold(k));
-      return html("li", {}, [row]);
-    }));
+    write(this.summary, `${account.real} real${parts.length ? `, ${parts.join(", ")}` : ""}, of degree ${account.degree}`);
+    this.list.draw(modes.map((mode, k) => ({
+      tone: this.tones[k] % TONES, text: `φ ${number(Number(degrees(mode.pose[2]).toFixed(2)))}°`, held: k === answer.current,
+      warning: [mode.multiplicity > 1 ? `${mode.multiplicity}-fold` : "", mode.violations.length ? "outside limits" : ""].filter(Boolean).join(", "),
+      tag: (mode.signs ?? "").replaceAll("-", "−"), title: `det A = ${mode.det_a.toExponential(3)}`,
+    })));
     this.drawPose(answer);
     this.circle.draw(answer.report, answer.current, this.tones.map((tone) => tone % TONES));
     this.plane.point(answer.inputs);
-    this.range.hidden = !["inclusive", "total"].includes(this.state.workspace.kind);
-    if (!this.state.workspace.kind) this.regionFacts.replaceChildren();
-    else if (this.region) {
-      const { area, perimeter, components, holes } = this.region;
-      this.regionFacts.replaceChildren(facts([["area", number(area)], ["perimeter", number(perimeter)], ["pieces, holes", `${components}, ${holes}`]]));
-    } else if (this.regionError !== this.regionErrorShown || !this.regionFacts.querySelector(".bad")) {
-      // Not redrawn while it stands, so that its button can be pressed.
-      this.regionFacts.replaceChildren(html("p", { class: "tag bad" }, [this.regionError]));
-      if (answer.actuators.some((actuator) => !actuator.limited)) {
-        this.regionFacts.append(html("p", {}, [button("Limit every actuator to its slider", () => this.pull({ handle: "bound" }, true), { id: "bound" })]));
-      }
-    }
-    this.regionErrorShown = this.regionError;
-    if (this.provedKey && this.provedKey !== JSON.stringify([answer.model, answer.inputs])) {
-      this.proof.replaceChildren();
-      this.provedKey = "";
-    }
+    this.drawRegion(answer);
+    if (this.provedKey) this.stillProved(this.provedKey);
   }
 
-  /** @param {Moved} answer @returns {void} */
+  /** @param {Moved} answer */
+  drawRegion(answer) {
+    const { kind } = this.state.workspace;
+    const region = kind ? this.region : null;
+    this.range.hidden = !["inclusive", "total"].includes(kind);
+    this.regionFacts.element.hidden = !region;
+    if (region) this.regionFacts.draw([["area", number(region.area)], ["perimeter", number(region.perimeter)], ["pieces, holes", `${region.components}, ${region.holes}`]]);
+    const alone = region ? region.isolated.length : 0;
+    const points = `${alone} single point${alone === 1 ? "" : "s"}`;
+    const empty = alone ? `No area, ${points}.` : "Empty: no place is reached so.";
+    const word = !kind ? "" : !region ? this.regionError || "computing …"
+      : region.unclosed > 0 ? "Undecided: the digits do not suffice to close its boundary, so the numbers lack a part."
+      : region.loops.length === 0 ? (region.separating.length ? "No area, lines only." : empty) : alone ? `And ${points}.` : "";
+    write(this.regionWord, word);
+    set(this.regionWord, "class", this.regionError || region?.unclosed ? "tag bad" : "tag");
+    this.regionWord.hidden = word === "";
+    this.bound.hidden = !kind || !this.regionError || answer.actuators.every((actuator) => actuator.limited);
+  }
+
+  /** @param {Moved} answer */
   drawPose(answer) {
     const mode = answer.current === null ? null : answer.report.modes[answer.current];
-    const fields = [...this.poseNumbers.querySelectorAll("input")];
-    if (fields.length === 0) {
-      for (const name of ["x", "y", "φ (°)"]) {
-        const field = html("input", { type: "number", step: "any", "aria-label": `Platform ${name}` });
-        field.addEventListener("change", () => {
-          const [x, y, phi] = [...this.poseNumbers.querySelectorAll("input")].map((input) => input.valueAsNumber);
-          if ([x, y, phi].every(Number.isFinite)) this.pull({ handle: "place", to: [x, y, radians(phi)] }, true);
-        });
-        this.poseNumbers.append(html("label", {}, [name, field]));
-      }
-      return this.drawPose(answer);
-    }
-    fields.forEach((field, k) => {
-      field.disabled = !mode;
-      if (document.activeElement === field) return;
-      field.value = mode ? String(Number((k === 2 ? degrees(mode.pose[2]) : mode.pose[k]).toPrecision(8))) : "";
+    this.place.forEach((field, k) => {
+      field.element.disabled = !mode;
+      field.show(mode ? String(Number((k === 2 ? degrees(mode.pose[2]) : mode.pose[k]).toPrecision(8))) : "");
     });
-    const rows = /** @type {[string, string][]} */ (mode ? [["working mode", (mode.signs ?? "").replaceAll("-", "−")], ["det A, zero where modes meet", number(mode.det_a)]] : [["no mode is held", "take one above"]]);
-    this.facts.replaceChildren(facts(rows));
+    const without = answer.report.modes.length ? "take one above" : "there is none";
+    this.poseFacts.draw(mode ? [["working mode", (mode.signs ?? "").replaceAll("-", "−")], ["det A, zero where modes meet", number(mode.det_a)]] : [["no mode is held", without]]);
   }
 
-  /** @param {import("./types.js").Actuator} actuator @param {number} k */
+  /** The row of an actuator. @param {Actuator} actuator @param {number} k */
   actuator(actuator, k) {
     const value = (/** @type {number} */ shown) => (actuator.angle ? radians(shown) : shown);
+    const shown = (/** @type {number} */ q) => (actuator.angle ? degrees(q) : q);
     const slider = html("input", { type: "range", "aria-label": `Actuator ${k + 1}` });
-    const field = html("input", { type: "number", step: "any", "aria-label": `Actuator ${k + 1}, number` });
-    slider.addEventListener("input", () => this.pull({ handle: "input", number: k, value: value(slider.valueAsNumber) }));
-    slider.addEventListener("change", () => this.drop());
-    field.addEventListener("change", () => Number.isFinite(field.valueAsNumber) && this.pull({ handle: "input", number: k, value: value(field.valueAsNumber) }, true));
-    const ends = ["lower", "upper"].map((end) => html("input", { type: "number", step: "any", "aria-label": `Actuator ${k + 1}, ${end} limit`, title: "Limits; empty both for none" }));
-    for (const end of ends) {
-      end.addEventListener("change", () => {
-        const range = ends.map((input) => input.valueAsNumber);
-        // One end alone says nothing yet.
-        if (range.every(Number.isFinite)) this.pull({ handle: "limits", number: k, range: range.map(value) }, true);
-        else if (ends.every((input) => input.value === "")) this.pull({ handle: "limits", number: k, range: null }, true);
-      });
-    }
-    const unit = html("span", { class: "quiet" }, [actuator.angle ? "°" : ""]);
-    return html("div", { class: "actuator", title: `leg ${actuator.leg}, joint ${actuator.joint}` }, [html("span", {}), slider, field, unit, html("div", { class: "ends" }, ["from ", ends[0], " to ", ends[1]])]);
+    onSlide(slider, () => this.pull({ handle: "input", number: k, value: value(slider.valueAsNumber) }), () => this.drop());
+    const field = new NumberField(`Actuator ${k + 1}, number`, (given) => (Number.isFinite(given) ? this.give({ handle: "input", number: k, value: value(given) }) : Promise.reject()));
+    /** @type {NumberField[]} */
+    const ends = ["lower", "upper"].map((end, side) => new NumberField(`Actuator ${k + 1}, ${end} limit`, () => {
+      const range = ends.map(({ element }) => element.valueAsNumber);
+      const free = ends.every(({ element }) => element.value === "");
+      if (!free && !range.every(Number.isFinite)) {
+        this.app.say(`A limit has two ends: give the ${side === 0 ? "upper" : "lower"} one too, or empty both for none.`);
+        return "more";
+      }
+      const given = this.give({ handle: "limits", number: k, range: free ? null : range.map(value) });
+      // With this end the other is answered as well.
+      const other = ends[1 - side];
+      const text = other.element.value;
+      given.then(() => other.answered(text), () => other.answered(text) && other.show(other.shown));
+      return given;
+    }));
+    ends.forEach(({ element }) => Object.assign(element, { title: "Limits; empty both for none", placeholder: "none" }));
+    this.inputs.append(html("div", { class: "actuator", title: `leg ${actuator.leg}, joint ${actuator.joint}` }, [
+      html("span", {}, [`q${k + 1}  ${actuator.angle ? "turn" : "slide"}`]), slider, field.element, html("span", { class: "quiet" }, [actuator.angle ? "°" : ""]),
+      html("div", { class: "ends" }, ["from ", ends[0].element, " to ", ends[1].element]),
+    ]));
+    const draw = (/** @type {Actuator} */ now, /** @type {number} */ q) => {
+      const [low, high] = now.range.map(shown);
+      set(slider, "min", String(low));
+      set(slider, "max", String(high));
+      set(slider, "step", String((high - low) / 2000));
+      const text = String(shown(q));
+      // Under the pointer it is where the pointer has it.
+      if (!(this.pulling && document.activeElement === slider)) slider.value = text;
+      field.show(String(Number(shown(q).toPrecision(7))));
+      ends.forEach((end, side) => end.show(now.limited ? String(Number([low, high][side].toPrecision(7))) : ""));
+    };
+    return { slider, field, ends, draw };
   }
 }
+
+/** Whether two inputs are one, angles but for whole turns. @param {number} p @param {number} q @param {boolean} angle */
+const same = (p, q, angle) => p === q || (angle && Math.abs(Math.sin((p - q) / 2)) < 1e-12);
 
 /** @param {object | null} pull */
 const changesLimits = (pull) => pull !== null && "handle" in pull && ["limits", "bound", "design"].includes(String(pull.handle));

@@ -21,7 +21,8 @@ export class Plane {
     this.element = html("div", {}, [html("div", { class: "plane-area" }, [this.canvas, this.here, this.up]), this.along, this.key]);
     /** @type {ActuatorPlane | null} */
     this.plane = null;
-    let held = false;
+    /** @type {number | null} The pointer that pulls. */
+    let held = null;
     const pull = (/** @type {PointerEvent} */ event) => {
       if (!this.plane) return;
       const box = this.canvas.getBoundingClientRect();
@@ -31,20 +32,26 @@ export class Plane {
       on.pull(pair, [value(0), value(1)]);
     };
     this.canvas.addEventListener("pointerdown", (event) => {
-      held = true;
+      if (held !== null || event.button !== 0 || !event.isPrimary) return;
+      held = event.pointerId;
       this.canvas.setPointerCapture(event.pointerId);
       pull(event);
     });
-    this.canvas.addEventListener("pointermove", (event) => held && pull(event));
-    this.canvas.addEventListener("pointerup", () => {
-      held = false;
+    this.canvas.addEventListener("pointermove", (event) => event.pointerId === held && pull(event));
+    const release = (/** @type {PointerEvent} */ event) => {
+      if (event.pointerId !== held) return;
+      held = null;
       on.drop();
-    });
+    };
+    this.canvas.addEventListener("pointerup", release);
+    this.canvas.addEventListener("pointercancel", release);
   }
 
-  /** @param {ActuatorPlane} plane @param {Actuator[]} actuators */
+  /** @param {ActuatorPlane | null} plane null where there is none @param {Actuator[]} actuators */
   draw(plane, actuators) {
     this.plane = plane;
+    this.element.hidden = !plane;
+    if (!plane) return;
     const [columns, rows] = plane.size;
     this.canvas.width = columns;
     this.canvas.height = rows;

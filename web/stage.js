@@ -6,7 +6,7 @@ import { set, svg } from "./svg.js";
 /**
  * @typedef {import("./types.js").Mark} Mark
  * @typedef {import("./types.js").Point} Point
- * @typedef {{ key: string, label: string, at: Point, origin?: Point, axis?: boolean }} Grip
+ * @typedef {{ key: string, label: string, at: Point, origin?: Point, from?: Point, axis?: boolean, body?: boolean }} Grip `from`: where its axis starts, if no line shows it; `body`: the solid plate is held by it
  * @typedef {{ tone: number, label: string, ghost: boolean, marks: Mark[], name: Point | null }} Assembly
  */
 
@@ -37,6 +37,8 @@ export class Stage {
     this.byKey = new Map();
     /** @type {{ key: string, offset: Point } | null} */
     this.held = null;
+    /** The handle that keys move. */
+    this.keyed = "";
     /** @type {() => void} */
     this.redraw = () => {};
     this.measure();
@@ -173,10 +175,11 @@ export class Stage {
 
   /** @param {Grip[]} grips */
   handles(grips) {
+    set(this.root, "data-plate", String(grips.some((grip) => grip.body)));
     const keys = new Set(grips.map((grip) => grip.key));
     for (const [key, { element }] of this.byKey) {
       // A handle that is held stays, whatever becomes of the mode it belongs to.
-      if (!keys.has(key) && this.held?.key !== key) {
+      if (!keys.has(key) && this.held?.key !== key && this.keyed !== key) {
         element.remove();
         this.byKey.delete(key);
       }
@@ -185,6 +188,7 @@ export class Stage {
       let entry = this.byKey.get(grip.key);
       if (!entry) {
         const element = svg("g", { class: `handle${grip.axis ? " axis" : ""}`, tabindex: 0, role: "button", "aria-label": grip.label, "data-key": grip.key }, this.grips);
+        if (grip.from) svg("line", { class: "arm" }, element);
         svg("circle", { class: "reach", r: 15 }, element);
         svg("circle", { class: "dot", r: grip.axis ? 5 : 10 }, element);
         svg("title", {}, element).textContent = grip.label;
@@ -194,6 +198,10 @@ export class Stage {
       entry.grip = grip;
       const [x, y] = this.place(grip.at);
       set(entry.element, "transform", `translate(${x.toFixed(2)} ${y.toFixed(2)})`);
+      if (!grip.from) continue;
+      const arm = this.place(grip.from);
+      set(entry.element.children[0], "x1", (arm[0] - x).toFixed(2));
+      set(entry.element.children[0], "y1", (arm[1] - y).toFixed(2));
     }
   }
 
@@ -204,23 +212,30 @@ export class Stage {
     };
     /** @type {Point | null} */
     let panned = null;
+    /** @type {number | null} The pointer that pulls or pans: the first finger, the first button. */
+    let pointer = null;
     this.root.addEventListener("pointerdown", (event) => {
+      if (pointer !== null || event.button !== 0 || !event.isPrimary) return;
       const target = event.target instanceof Element ? event.target : null;
-      const key = target?.closest(".handle")?.getAttribute("data-key");
-      if (key) {
-        const grip = this.byKey.get(key)?.grip;
-        if (!grip) return;
+      const body = target?.matches(".held-mode .body") ? [...this.byKey.values()].find(({ grip }) => grip.body) : null;
+      const key = target?.closest(".handle")?.getAttribute("data-key") ?? body?.grip.key;
+      const entry = key ? this.byKey.get(key) : null;
+      if (key && entry) {
         const at = this.unplace(pixel(event));
-        const from = grip.origin ?? grip.at;
+        const from = entry.grip.origin ?? entry.grip.at;
         this.held = { key, offset: [from[0] - at[0], from[1] - at[1]] };
-        this.byKey.get(key)?.element.classList.add("held");
+        entry.element.classList.add("held");
         this.on.grab(key);
       } else if (!target?.closest(".ghost")) {
         panned = pixel(event);
+      } else {
+        return;
       }
-      if (key || panned) this.root.setPointerCapture(event.pointerId);
+      pointer = event.pointerId;
+      this.root.setPointerCapture(event.pointerId);
     });
     this.root.addEventListener("pointermove", (event) => {
+      if (event.pointerId !== pointer) return;
       const at = pixel(event);
       if (this.held) {
         const [x, y] = this.unplace(at);
@@ -231,7 +246,9 @@ export class Stage {
         this.redraw();
       }
     });
-    const release = () => {
+    const release = (/** @type {PointerEvent} */ event) => {
+      if (event.pointerId !== pointer) return;
+      pointer = null;
       panned = null;
       if (!this.held) return;
       const { key } = this.held;
@@ -255,10 +272,17 @@ export class Stage {
       event.preventDefault();
       const step = (event.shiftKey ? STEPS.shift : event.altKey ? STEPS.alt : STEPS.plain) / this.scale;
       const from = grip.origin ?? grip.at;
+      this.keyed = key;
       this.on.grab(key);
       this.on.pull(key, this.rounded([from[0] + way[0] * step, from[1] + way[1] * step]));
-      this.on.drop(key);
     });
+    // However often a key repeats, letting it go is one end.
+    const rest = () => {
+      if (this.keyed) this.on.drop(this.keyed);
+      this.keyed = "";
+    };
+    this.root.addEventListener("keyup", rest);
+    this.root.addEventListener("focusout", rest);
     // Measured when it changes: asked for with each drawing, the browser would lay the page out twice.
     new ResizeObserver(() => {
       this.measure();

@@ -35,6 +35,11 @@ export function set(element, name, value) {
   if (element.getAttribute(name) !== value) element.setAttribute(name, value);
 }
 
+/** Changes a text that differs. @param {Element} element @param {string} text */
+export function write(element, text) {
+  if (element.textContent !== text) element.textContent = text;
+}
+
 /** @param {string} id @returns {any} */
 export function byId(id) {
   const element = document.getElementById(id);

@@ -1,8 +1,8 @@
 // The page of trusses: all assemblies of an Assur group with its ground.
 
-import { latest } from "./connection.js";
-import { button, facts, panel } from "./panels.js";
-import { html, number } from "./svg.js";
+import { Page } from "./page.js";
+import { Cells, Facts, Rows, button, panel } from "./panels.js";
+import { number } from "./svg.js";
 
 /**
  * @typedef {import("./types.js").TrussState} TrussState
@@ -20,60 +20,37 @@ export const FIRST = {
 
 const TONES = 6;
 
-export class TrussPage {
+/** @extends {Page<TrussState, TrussAnswer>} */
+export class TrussPage extends Page {
   /** @param {App} app @param {TrussState} state */
   constructor(app, state) {
-    this.app = app;
-    this.state = state;
-    /** @type {TrussAnswer | null} */
-    this.answer = null;
-    this.moves = latest((/** @type {{ pull: object | null, take?: number, fit?: boolean, book?: boolean }} */ wish) => this.move(wish));
-    this.account = html("div", { class: "account", role: "img" });
-    this.facts = html("div");
-    this.list = html("ul", { class: "modes" });
-    this.app.panels(
-      panel("Assemblies", [this.account, this.facts, this.list]),
+    super(app, state);
+    this.account = new Cells();
+    this.facts = new Facts();
+    this.list = new Rows((k) => this.hold(k));
+    this.panels = [
+      panel("Assemblies", [this.account.element, this.facts.element, this.list.element]),
       panel("Design", [button("Edit as text …", () => this.app.edit(), { id: "edit" })]),
-    );
+    ];
   }
 
-  /** @param {boolean} _pick @param {boolean} fit */
-  begin(_pick, fit) {
-    this.moves.push({ pull: null, fit });
-    return this.moves.settled();
+  /** @param {import("./types.js").Wish} wish */
+  async ask({ pull = null, take }) {
+    /** @type {TrussAnswer} */
+    const answer = await this.app.connection.ask("truss", { file: this.state.file, pull, take });
+    this.answer = answer;
+    this.state.file = answer.file;
+    return "";
   }
-
-  /** @param {{ pull: object | null, take?: number, fit?: boolean, book?: boolean }} wish */
-  async move({ pull, take, fit = false, book = false }) {
-    try {
-      /** @type {TrussAnswer} */
-      const answer = await this.app.connection.ask("truss", { file: this.state.file, pull, take });
-      this.answer = answer;
-      this.state.file = answer.file;
-      if (fit) this.fit();
-      this.app.schedule();
-      this.app.say("");
-      if (book) this.app.book();
-    } catch (error) {
-      this.app.fail(error);
-    }
-  }
-
-  grab() {}
 
   /** @param {string} key @param {Point} to */
   pullHandle(key, to) {
-    this.moves.push({ pull: { joint: Number(key.split(":")[1]), to } });
-  }
-
-  async drop() {
-    await this.moves.settled();
-    this.app.book();
+    this.do({ pull: { joint: Number(key.split(":")[1]), to }, key, drag: true });
   }
 
   /** @param {number} index */
   hold(index) {
-    if (this.answer && index < this.answer.drawings.length) this.moves.push({ pull: null, take: index, book: true });
+    if (this.answer && index < this.answer.drawings.length) this.do({ take: index, book: true });
   }
 
   fit() {
@@ -90,18 +67,11 @@ export class TrussPage {
     app.stage.rings([]);
     app.stage.handles(answer.joints.map((at, k) => ({ key: `joint:${k}`, at, label: `joint ${k + 1}` })));
     const real = drawings.length;
-    app.caption(report.truss ? `Baranov truss ${report.truss}` : "Assur group", `${real} real of ${report.count} assemblies`);
-    this.account.replaceChildren(...Array.from({ length: report.count }, (_, k) => html("span", { class: k < real ? "real" : "complex" })));
-    this.account.setAttribute("aria-label", `${real} real of ${report.count}`);
+    app.caption(answer.file.name || (report.truss ? `Baranov truss ${report.truss}` : "Assur group"), `${real} real of ${report.count} assemblies`);
+    this.account.draw(Array.from({ length: report.count }, (_, k) => (k < real ? "real" : "complex")), `${real} real of ${report.count}`);
     const missing = report.missing === null ? "not known" : String(report.missing);
     const worst = report.assemblies.reduce((most, assembly) => Math.max(most, assembly.residual), 0);
-    this.facts.replaceChildren(facts([["real", String(real)], ["real and complex", String(report.count)], ["for general dimensions", String(report.expected ?? "not known")], ["not found", missing], ["worst residual", number(worst)]]));
-    this.list.replaceChildren(...drawings.map((_, k) => {
-      const row = html("button", { "data-tone": k % TONES, "aria-pressed": String(k === current) }, [
-        html("span", { class: "swatch" }, [html("b", {}, [String(k + 1)])]), html("span", { class: "text" }, [`assembly ${k + 1}`]),
-      ]);
-      row.addEventListener("click", () => this.hold(k));
-      return html("li", {}, [row]);
-    }));
+    this.facts.draw([["real", String(real)], ["real and complex", String(report.count)], ["for general dimensions", String(report.expected ?? "not known")], ["not found", missing], ["worst residual", number(worst)]]);
+    this.list.draw(drawings.map((_, k) => ({ tone: k % TONES, text: `assembly ${k + 1}`, held: k === current })));
   }
 }

@@ -199,6 +199,35 @@ impl Manipulator {
             .collect()
     }
 
+    /// The same inputs, each angle by whole turns where [`Manipulator::actuator_range`] has it: as a slider or a plane of actuators shows it.
+    ///
+    /// ```
+    /// use assur::Manipulator;
+    /// let (robot, inputs) = Manipulator::of_family("3-RRP")?;
+    /// assert!(inputs[1] > std::f64::consts::PI);
+    /// assert!((robot.inputs_in_range(&inputs)[1] - (inputs[1] - std::f64::consts::TAU)).abs() < 1e-12);
+    /// # Ok::<(), assur::FamilyError>(())
+    /// ```
+    pub fn inputs_in_range(&self, inputs: &[f64]) -> Vec<f64> {
+        let ranges = (0..).map_while(|number| self.actuator_range(number));
+        let middles: Vec<f64> = ranges.map(|[low, high]| 0.5 * (low + high)).collect();
+        self.inputs_beside(inputs, &middles)
+    }
+
+    /// The number, from 0, of the pose in a list that is nearest to another one, in characteristic lengths and radians.
+    ///
+    /// ```
+    /// use assur::{Manipulator, linkage::Pose};
+    /// let (robot, inputs) = Manipulator::of_family("3-RPR")?;
+    /// let poses: Vec<Pose> = robot.forward(&inputs)?.modes.iter().map(|mode| mode.mode.pose).collect();
+    /// let beside = Pose::new(poses[1].x + 0.01, poses[1].y, poses[1].phi);
+    /// assert_eq!(robot.nearest_pose(&poses, &beside), Some(1));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn nearest_pose(&self, poses: &[Pose], pose: &Pose) -> Option<usize> {
+        nearest_pose(poses, pose, self.characteristic_length())
+    }
+
     fn without_limits(&self) -> Self {
         let mut free = self.clone();
         free.legs.iter_mut().for_each(|leg| leg.limits = [None; 3]);
@@ -229,9 +258,13 @@ impl Manipulator {
 impl Tracked {
     /// The number, from 0, of the mode that is nearest to a pose before the change; lengths in units of `scale`.
     pub fn nearest(&self, pose: &Pose, scale: f64) -> Option<usize> {
-        let distance = |&mode: &usize| pose_distance(&self.from[mode], pose, scale);
-        (0..self.from.len()).min_by(|p, q| distance(p).total_cmp(&distance(q)))
+        nearest_pose(&self.from, pose, scale)
     }
+}
+
+fn nearest_pose(poses: &[Pose], pose: &Pose, scale: f64) -> Option<usize> {
+    let distance = |&number: &usize| pose_distance(&poses[number], pose, scale);
+    (0..poses.len()).min_by(|p, q| distance(p).total_cmp(&distance(q)))
 }
 
 fn same_joints(one: &Manipulator, other: &Manipulator) -> bool {

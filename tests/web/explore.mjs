@@ -259,6 +259,9 @@ const tests = {
     const canvas = page.locator(".plane-area canvas");
     await canvas.scrollIntoViewIfNeeded();
     const box = await canvas.boundingBox();
+    await page.mouse.click(box.x + 0.5 * box.width, box.y + 0.5 * box.height, { button: "right" });
+    await settled(page);
+    assert.deepEqual((await state(page)).inputs, inputs);
     await page.mouse.click(box.x + 0.5 * box.width, box.y + 0.5 * box.height);
     await settled(page);
     const after = (await state(page)).inputs;
@@ -267,14 +270,15 @@ const tests = {
   },
 
   async "slider axes and platform points are pulled"(page) {
-    for (const [family, key] of [["3-PRR", "base_axis:0"], ["3-RRP", "platform_axis:1"], ["3-RPR", "platform:2"]]) {
+    for (const [family, key] of [["3-PRR", "base_axis:0"], ["3-RRP", "platform_axis:1"], ["3-RPR", "platform:2"], ["3-PPR", "middle_axis:0"], ["3-RPP", "middle_axis:2"]]) {
       await startFrom(page, family);
       const before = (await state(page)).model.leg;
       await drag(page, key, 14, 9);
       const after = (await state(page)).model.leg;
       const leg = Number(key.at(-1));
-      const part = key.startsWith("base") ? "base" : "platform";
+      const part = key.startsWith("base") ? "base" : key.startsWith("middle") ? "links" : "platform";
       assert.notDeepEqual(after[leg][part], before[leg][part], key);
+      if (part === "links") await picture(page, `middle-${family}`);
       after.forEach((other, k) => k !== leg && assert.deepEqual(other, before[k], key));
       const report = await forward(page);
       assert.deepEqual((await answer(page)).report.modes.map((mode) => mode.signs), report.modes.map((mode) => mode.signs));
@@ -309,7 +313,12 @@ const tests = {
     assert.match(await page.textContent(".panel .tag.good"), /complete/);
     assert.ok((await page.locator("#stage .locus-2, #stage .locus-1").count()) > 0);
     await picture(page, "singular");
+    await page.reload();
+    await page.waitForFunction(() => globalThis.assur?.page?.answer);
+    await settled(page);
+    assert.equal(await page.textContent("#loci"), "hide");
     await page.keyboard.press("l");
+    assert.equal(await page.textContent("#loci"), "show");
   },
 
   async "every family opens"(page) {
@@ -321,6 +330,321 @@ const tests = {
       assert.equal(await solid(page), 1, family);
       if (["3-RRR", "3-PRR", "3-RRP"].includes(family)) await picture(page, `family-${family}`);
     }
+  },
+
+  async "no command is lost beside a drag, and each is done in its turn"(page) {
+    await startFrom(page, "3-RPR");
+    const done = await page.evaluate(async () => {
+      const { page, history } = globalThis.assur;
+      const [start, steps] = [page.state.inputs[0], history.past.length];
+      const other = page.answer.report.modes.findIndex((_, k) => k !== page.answer.current);
+      const tone = page.tones[other];
+      let asked = 0;
+      const ask = page.app.connection.ask;
+      page.app.connection.ask = function (kind, question) { asked += kind === "move"; return ask.call(this, kind, question); };
+      page.grab("base:2");
+      const { at } = page.state.model.leg[2].base;
+      for (let k = 1; k <= 20; k++) page.pull({ handle: "base", leg: 2, to: [at[0] + 0.001 * k, at[1]] });
+      page.drop();
+      page.hold(other);
+      page.pull({ handle: "limits", number: 1, range: [1, 40] }, true);
+      page.pull({ handle: "input", number: 0, value: start + 0.01 }, true);
+      await page.moves.settled();
+      page.app.connection.ask = ask;
+      return { asked, base: page.state.model.leg[2].base.at[0] - at[0], tone, held: page.tones[page.answer.current], limits: Object.values(page.state.model.leg[1].limits ?? {})[0], input: page.state.inputs[0] - start, steps: history.past.length - steps };
+    });
+    assert.ok(Math.abs(done.base - 0.02) < 1e-12 && Math.abs(done.input - 0.01) < 1e-12, JSON.stringify(done));
+    assert.deepEqual([done.limits, done.held, done.steps], [[1, 40], done.tone, 4]);
+    // Of the twenty steps the first and the last were asked for.
+    assert.equal(done.asked, 5);
+  },
+
+  async "a mode that has ended is found again when it is pulled back later"(page) {
+    await startFrom(page, "3-RPR");
+    const [before, start] = await page.evaluate(() => [globalThis.assur.page.state.mode, globalThis.assur.page.state.inputs[0]]);
+    const field = page.getByLabel("Actuator 1, number");
+    const type = async (value) => {
+      await field.fill(String(value));
+      await field.press("Enter");
+      await settled(page);
+    };
+    await type(start * 6);
+    assert.equal((await state(page)).mode, null);
+    assert.match(await page.textContent("#notice"), /Pull back/);
+    assert.match(await page.textContent("#panels"), /no mode is heldthere is none/);
+    await type(start);
+    const { mode } = await state(page);
+    mode.pose.forEach((v, k) => assert.ok(Math.abs(v - before.pose[k]) < 1e-9));
+  },
+
+  async "numbers that are refused go back and are marked"(page) {
+    await startFrom(page, "3-RPR");
+    const limit = (end) => page.getByLabel(`Actuator 1, ${end} limit`);
+    await limit("lower").fill("5");
+    await limit("lower").press("Enter");
+    assert.match(await page.textContent("#message"), /two ends/);
+    await limit("upper").fill("30");
+    await limit("upper").press("Enter");
+    await settled(page);
+    assert.deepEqual(Object.values((await state(page)).model.leg[0].limits)[0], [5, 30]);
+    // What is typed while another number is asked for stays.
+    const typed = await page.evaluate(async () => {
+      const [lower, upper] = ["lower", "upper"].map((end) => document.querySelector(`[aria-label="Actuator 1, ${end} limit"]`));
+      const type = (field, text) => {
+        field.value = text;
+        field.dispatchEvent(new Event("input"));
+      };
+      type(lower, "6");
+      lower.dispatchEvent(new Event("change"));
+      type(upper, "29");
+      type(lower, "5");
+      await globalThis.assur.page.moves.settled();
+      await new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(go)));
+      const kept = [lower.value, upper.value];
+      type(upper, "30");
+      upper.dispatchEvent(new Event("change"));
+      await globalThis.assur.page.moves.settled();
+      return kept;
+    });
+    assert.deepEqual(typed, ["5", "29"]);
+    assert.deepEqual(Object.values((await state(page)).model.leg[0].limits)[0], [5, 30]);
+    await limit("lower").fill("31");
+    await limit("lower").press("Enter");
+    await page.waitForFunction(() => document.getElementById("message").textContent.includes("must not decrease"));
+    assert.deepEqual([await limit("lower").inputValue(), await limit("lower").getAttribute("aria-invalid")], ["5", "true"]);
+    const field = page.getByLabel("Actuator 1, number");
+    const before = await field.inputValue();
+    await field.fill("31");
+    await field.press("Enter");
+    await page.waitForFunction(() => document.getElementById("message").textContent.includes("outside limits"));
+    assert.deepEqual([await field.inputValue(), await field.getAttribute("aria-invalid")], [before, "true"]);
+    await picture(page, "refused");
+    await field.fill("12");
+    await field.press("Enter");
+    await settled(page);
+    assert.equal(await field.getAttribute("aria-invalid"), null);
+    assert.equal((await state(page)).inputs[0], 12);
+  },
+
+  async "the plate is a handle, other buttons are none, and keys that repeat are one step"(page) {
+    await startFrom(page, "3-RPR");
+    const corners = await page.evaluate(() => globalThis.assur.page.answer.drawings[globalThis.assur.page.answer.current].find((mark) => mark.mark === "body").at.map((p) => globalThis.assur.stage.place(p)));
+    const box = await page.locator("#stage").boundingBox();
+    // Inside, off the middle and its handle.
+    const [x, y] = [0, 1].map((k) => 0.6 * corners[0][k] + 0.2 * corners[1][k] + 0.2 * corners[2][k]);
+    const before = await state(page);
+    const centre = await page.evaluate(() => globalThis.assur.stage.centre);
+    const pull = async (button) => {
+      await page.mouse.move(box.x + x, box.y + y);
+      await page.mouse.down({ button });
+      await page.mouse.move(box.x + x + 8, box.y + y + 5, { steps: 3 });
+      await page.mouse.up({ button });
+      await settled(page);
+    };
+    await pull("right");
+    assert.deepEqual([await state(page), await page.evaluate(() => globalThis.assur.stage.centre)], [before, centre]);
+    await pull("left");
+    assert.notDeepEqual((await state(page)).mode.pose, before.mode.pose);
+    assert.deepEqual(await page.evaluate(() => globalThis.assur.stage.centre), centre);
+    assert.equal(await page.locator("#hint").isVisible(), false);
+    const steps = () => page.evaluate(() => globalThis.assur.history.past.length);
+    const at = await steps();
+    await page.locator('#stage [data-key="base:1"]').focus();
+    for (let k = 0; k < 5; k++) await page.keyboard.down("ArrowRight");
+    await page.keyboard.up("ArrowRight");
+    await settled(page);
+    assert.equal(await steps(), at + 1);
+    await page.getByLabel("Actuator 1", { exact: true }).focus();
+    for (let k = 0; k < 5; k++) await page.keyboard.down("ArrowRight");
+    await page.keyboard.up("ArrowRight");
+    await settled(page);
+    assert.equal(await steps(), at + 2);
+    // A button that has the focus keeps it.
+    await page.locator("#panels .modes button").nth(1).focus();
+    await page.keyboard.press("Enter");
+    await settled(page);
+    assert.ok(await page.evaluate(() => document.activeElement === document.querySelectorAll("#panels .modes button")[1]));
+  },
+
+  async "numbers follow when the hand holds still"(page) {
+    await startFrom(page, "3-RPR");
+    const value = await page.evaluate(async () => {
+      const { page } = globalThis.assur;
+      const start = page.state.inputs[0];
+      const field = document.querySelector('[aria-label="Actuator 1, number"]');
+      for (let k = 1; k <= 50; k++) {
+        page.pull({ handle: "input", number: 0, value: start + 0.001 * k });
+        await page.moves.settled();
+        await new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(go)));
+        // Held still just when the numbers are behind.
+        if (k > 1 && Math.abs(field.valueAsNumber - page.state.inputs[0]) > 5e-4) return page.state.inputs[0];
+      }
+      return null;
+    });
+    assert.notEqual(value, null);
+    await page.waitForFunction((value) => Math.abs(document.querySelector('[aria-label="Actuator 1, number"]').valueAsNumber - value) < 1e-5, value, { timeout: 2000 });
+    await page.evaluate(() => globalThis.assur.page.drop());
+  },
+
+  async "a proof is shown of what was proved only"(page) {
+    await startFrom(page, "3-RPR");
+    await page.evaluate(async () => {
+      const { page, connection } = globalThis.assur;
+      const { ask } = connection;
+      // A proof that takes its time.
+      connection.ask = async function (...asked) {
+        const answer = await ask.apply(this, asked);
+        if (asked[0] === "prove") await new Promise((go) => setTimeout(go, 300));
+        return answer;
+      };
+      const proof = page.prove();
+      connection.ask = ask;
+      page.pull({ handle: "input", number: 0, value: page.state.inputs[0] + 0.1 }, true);
+      await Promise.all([proof, page.moves.settled()]);
+    });
+    await settled(page);
+    assert.equal(await page.evaluate(() => globalThis.assur.page.proof.textContent), "");
+  },
+
+  async "angles are shown within their range, single points and empty workspaces are named"(page) {
+    await startFrom(page, "3-RRP");
+    const slider = page.getByLabel("Actuator 2", { exact: true });
+    assert.ok(Number(await slider.inputValue()) < -170);
+    assert.ok(await page.locator(".plane-area .here").isVisible());
+    await startFrom(page, "3-RPR");
+    await page.evaluate(() => globalThis.assur.page.pull({ handle: "bound" }, true));
+    await settled(page);
+    await page.selectOption("#workspace", "dextrous");
+    await settled(page);
+    const { workspace } = await answer(page);
+    if (workspace.loops.length === 0 && workspace.isolated.length === 0) assert.match(await page.textContent("#panels"), /Empty/);
+    await page.evaluate(() => {
+      const { page } = globalThis.assur;
+      Object.assign(page.region, { loops: [], separating: [], isolated: [[1, 2]], area: 0, perimeter: 0, components: 0, holes: 0 });
+      page.draw();
+    });
+    assert.match(await page.textContent("#panels"), /1 single point\./);
+    assert.equal(await page.locator("#stage .region-point").count(), 1);
+    await page.selectOption("#workspace", "");
+    await settled(page);
+  },
+
+  async "a workspace that takes long keeps no drag waiting"(page) {
+    await page.setInputFiles("#file", new URL("../../examples/workspaces/five-kinds.toml", import.meta.url).pathname);
+    await page.waitForFunction(() => globalThis.assur.page.answer?.model?.name === "3-RPR with a small platform");
+    await page.selectOption("#workspace", "maximal");
+    await settled(page);
+    const asked = await page.evaluate(async () => {
+      const { page, connection } = globalThis.assur;
+      const [ask, kinds] = [connection.ask, []];
+      connection.ask = function (kind, question) {
+        kinds.push(kind === "move" ? `move ${question.workspace?.kind ?? "alone"}` : kind);
+        return ask.call(this, kind, question);
+      };
+      const { at } = page.state.model.leg[2].base;
+      const step = async (k) => {
+        page.pull({ handle: "base", leg: 2, to: [at[0] + 0.01 * k, at[1]] });
+        await page.moves.settled();
+      };
+      await step(1);
+      page.regionTime = 1000;
+      await step(2);
+      const without = page.region === null;
+      await page.drop();
+      await page.slow.settled();
+      connection.ask = ask;
+      return { kinds, without, again: page.region !== null, area: page.answer.workspace.area };
+    });
+    assert.deepEqual([asked.without, asked.again], [true, true]);
+    assert.deepEqual(asked.kinds.filter((kind) => /move|workspace/.test(kind)), ["move maximal", "move alone", "workspace"]);
+    const { model } = await state(page);
+    const file = join(folder, "held.json");
+    writeFileSync(file, JSON.stringify(model));
+    const report = JSON.parse(execFileSync(PROGRAM, ["workspace", file, "maximal", "--json"], { encoding: "utf8" }));
+    assert.ok(Math.abs(report.area - asked.area) <= 1e-9 * report.area);
+    // All is shown with its workspace.
+    await page.evaluate(() => document.activeElement.blur());
+    await page.keyboard.press("f");
+    assert.ok(await page.evaluate(() => {
+      const { stage, page } = globalThis.assur;
+      return page.region.loops.flat().every((point) => stage.place(point).every((v, axis) => v > 0 && v < stage.extent[axis]));
+    }));
+    await page.selectOption("#workspace", "");
+    await settled(page);
+  },
+
+  async "what is refused leaves the page as it is"(page) {
+    await startFrom(page, "3-RRR");
+    const before = await state(page);
+    const leg = (x, y) => `[[leg]]\njoints = "_R_PP"\nbase.at = [${x}, ${y}]\nplatform = { at = [${x / 4}, ${y / 4}], angle = 1 }\n`;
+    const text = `schema = "assur/manipulator/1"\n${leg(0, 0)}${leg(9, 0)}${leg(0, 9)}`;
+    await page.setInputFiles("#file", { name: "loose.toml", mimeType: "text/plain", buffer: Buffer.from(text) });
+    await page.waitForFunction(() => document.getElementById("message").textContent.includes("both left with PP"));
+    assert.deepEqual(await state(page), before);
+    assert.ok(await page.locator("#panels .modes button").count());
+    await page.click("#edit");
+    await page.fill("#editor-text", text);
+    await page.click("#editor-apply");
+    await page.waitForFunction(() => document.getElementById("editor-error").textContent.includes("both left with PP"));
+    assert.equal(await page.inputValue("#editor-text"), text);
+    await page.click("#editor-close");
+    assert.deepEqual(await state(page), before);
+    // An answer without a number belongs to what waits.
+    const refused = await page.evaluate(() => {
+      const { connection } = globalThis.assur;
+      const asked = connection.ask("move", {}).catch((error) => error.message);
+      connection.take({ id: null, error: "the question cannot be read" });
+      return asked;
+    });
+    assert.match(refused, /cannot be read/);
+    await page.click("#export summary");
+    assert.ok(await page.locator("#export .sheet").isVisible());
+    await page.keyboard.press("Escape");
+    assert.ok(!(await page.locator("#export .sheet").isVisible()));
+  },
+
+  async "links are followed, and one that cannot be read is named and stays"(page) {
+    const wrong = [];
+    const base = { page: "manipulator", ...(await state(page)) };
+    const link = (it) => Buffer.from(JSON.stringify(it)).toString("base64url");
+    wrong.push("nonsense", "eyJwYWdlIjoibWFuaXB1bGF0b3IifQ", link({ ...base, workspace: { ...base.workspace, kind: "nothing" } }));
+    for (const hash of wrong) {
+      const other = await open(`${server.address}#${hash}`);
+      assert.match(await other.textContent("#notice"), /This link cannot be read/, hash);
+      assert.equal(new URL(other.url()).hash, `#${hash}`);
+      // From here a good one leads on, and back.
+      const here = (await state(other)).model;
+      await other.evaluate((hash) => { location.hash = hash; }, link(base));
+      await other.waitForFunction((text) => JSON.stringify(globalThis.assur.page.state.model) === text, JSON.stringify(base.model));
+      await settled(other);
+      assert.ok(!(await other.locator("#notice").isVisible()));
+      await other.keyboard.press("Control+z");
+      await other.waitForFunction((text) => JSON.stringify(globalThis.assur.page.state.model) === text, JSON.stringify(here));
+      await other.close();
+    }
+  },
+
+  async "what was undone stays undone on other pages and back"(page) {
+    await startFrom(page, "3-RPR");
+    const before = (await state(page)).model;
+    await drag(page, "base:0", 20, 10);
+    await page.keyboard.press("Control+z");
+    await page.waitForFunction((text) => JSON.stringify(globalThis.assur.page.state.model) === text, JSON.stringify(before));
+    await page.click("#tab-truss");
+    await page.waitForFunction(() => globalThis.assur.page.state.page === "truss");
+    await page.click("#tab-manipulator");
+    await page.waitForFunction(() => globalThis.assur.page.state.page === "manipulator");
+    assert.deepEqual((await state(page)).model, before);
+    // Steps of undo pressed in a row are all taken; one that leads to another page brings it into view.
+    await page.evaluate(() => { globalThis.assur.stage.scale = 1e-3; });
+    await page.keyboard.press("Control+z");
+    await page.keyboard.press("Control+z");
+    await page.waitForFunction(() => globalThis.assur.page.state.page === "manipulator" && globalThis.assur.history.future.length === 2);
+    assert.ok(await page.evaluate(() => globalThis.assur.stage.scale) > 1);
+    await page.keyboard.press("Control+Shift+z");
+    await page.keyboard.press("Control+Shift+z");
+    await page.waitForFunction(() => globalThis.assur.history.future.length === 0);
+    assert.deepEqual((await state(page)).model, before);
   },
 
   async "files are opened; wrong and too large ones are refused, and what was there stays"(page) {
@@ -335,6 +659,9 @@ const tests = {
     await said('did you mean "leg"');
     await page.setInputFiles("#file", file("large.toml", "#".repeat(300_000)));
     await said("too large");
+    // Measured as it is sent: letters of two bytes.
+    const long = page.evaluate(() => globalThis.assur.connection.ask("write", { model: "é".repeat(0.6 * globalThis.assur.connection.largest) }).catch((error) => error.message));
+    assert.match(await long, /too large/);
     assert.deepEqual(await state(page), before);
     await page.setInputFiles("#file", join(examples, "coupler.json"));
     await page.waitForFunction(() => globalThis.assur.page.answer?.circuits);
@@ -399,6 +726,20 @@ const tests = {
     await other.close();
   },
 
+  async "a page too many says so, and gets in when another is closed"(page) {
+    await page.evaluate(async () => {
+      globalThis.others = Array.from({ length: 32 }, () => new WebSocket(globalThis.assur.connection.socket.url));
+      await Promise.all(globalThis.others.map((socket) => new Promise((go) => socket.addEventListener("open", go))));
+    });
+    const other = await context.newPage();
+    await other.goto(server.address);
+    await other.waitForFunction(() => document.getElementById("notice").textContent.includes("too many pages are open"));
+    await page.evaluate(() => globalThis.others.forEach((socket) => socket.close()));
+    await other.waitForFunction(() => globalThis.assur.page?.answer, null, { timeout: 15_000 });
+    assert.ok(!(await other.locator("#notice").isVisible()));
+    await other.close();
+  },
+
   async "a closed socket is opened again, and nothing is lost"(page) {
     const before = await state(page);
     // Closing takes a moment, in which the old socket still counts as open.
@@ -427,6 +768,20 @@ const tests = {
     assert.equal(await ghosts(page), shown);
     await drag(page, "base:0", 20, 0, 3);
     assert.deepEqual((await state(page)).model, before.model);
+    // Nor does anything else that would have to ask lead anywhere.
+    const [steps, address] = [await page.evaluate(() => globalThis.assur.history.past.length), page.url()];
+    await page.keyboard.press("Control+z");
+    await page.click("#tab-truss");
+    await page.selectOption("#family", "3-RRR");
+    await page.waitForFunction(() => document.getElementById("message").textContent.includes("no server"));
+    await page.evaluate(() => globalThis.assur.lead(async () => {}));
+    assert.deepEqual([await state(page), await page.evaluate(() => globalThis.assur.history.past.length), page.url()], [before, steps, address]);
+    assert.ok(await page.locator("#panels .modes button").count());
+    await page.click("#export summary");
+    const [file] = await Promise.all([page.waitForEvent("download"), page.click("#export-model")]);
+    assert.match(file.suggestedFilename(), /json$/);
+    await file.saveAs(join(folder, "offline.json"));
+    assert.deepEqual(JSON.parse(readFileSync(join(folder, "offline.json"), "utf8")), before.model);
     server = await explorer(server.address);
     await page.waitForFunction(() => document.getElementById("connection").dataset.state === "open", null, { timeout: 15000 });
     await drag(page, "base:0", 25, 10);
@@ -437,6 +792,7 @@ const tests = {
     await page.click("#tab-four_bar");
     await page.waitForFunction(() => globalThis.assur.page.answer?.circuits);
     assert.equal((await answer(page)).circuits.length, 2);
+    await settled(page);
     await picture(page, "four-bar");
     await drag(page, "pivot:1", -20, 15);
     const { circuits, report, joints, pivots } = await answer(page);
@@ -447,8 +803,24 @@ const tests = {
     await drag(page, "point", 15, -20);
     await page.click("#run");
     await page.waitForTimeout(400);
-    await page.click("#run");
-    assert.notEqual((await answer(page)).place.tau, 0.8);
+    // A circuit is taken while it runs, and what is said below stays.
+    await page.evaluate(() => globalThis.assur.say("a word"));
+    await page.locator("#panels .modes button").nth(1).click();
+    await page.waitForFunction(() => globalThis.assur.page.state.place.circuit === 1);
+    await page.evaluate(() => globalThis.assur.say("a word"));
+    const tau = (await answer(page)).place.tau;
+    await page.waitForTimeout(100);
+    assert.equal(await page.textContent("#message"), "a word");
+    assert.notEqual((await answer(page)).place.tau, tau);
+    await picture(page, "four-bar-running");
+    // Left, it stops.
+    await page.click("#tab-truss");
+    await page.waitForFunction(() => globalThis.assur.page.state.page === "truss");
+    const asked = await page.evaluate(() => globalThis.assur.connection.next);
+    await page.waitForTimeout(200);
+    assert.equal(await page.evaluate(() => globalThis.assur.connection.next), asked);
+    await page.click("#tab-four_bar");
+    await page.waitForFunction(() => globalThis.assur.page.state.page === "four_bar");
   },
 
   async "truss: every real assembly, another one taken"(page) {

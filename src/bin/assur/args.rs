@@ -177,12 +177,12 @@ pub(crate) enum Command {
     /// Opens a page in the browser in which mechanisms are dragged: every assembly mode, at once.
     #[command(
         after_help = "The page is served to this machine only, at the address printed; it needs no network. An address printed before, in place of MODEL, \
-        takes up an explorer that was stopped: pages still open go on.\nExample:  assur explore examples/3-rpr.toml --inputs=14.98,15.38,12"
+        takes up an explorer that was stopped: pages still open go on, and a link to a view opens that view.\nExample:  assur explore examples/3-rpr.toml --inputs=14.98,15.38,12"
     )]
     Explore {
         /// Model, coupler or group file; without it a 3-RPR.
         model: Option<String>,
-        /// The actuator values to begin with: lengths and radians.
+        /// The actuator values to begin with, leg by leg: lengths, and angles in the model file's unit.
         #[arg(long, value_name = "Q1,Q2,Q3", value_delimiter = ',', allow_hyphen_values = true)]
         inputs: Vec<f64>,
         /// The port; any free one without it.

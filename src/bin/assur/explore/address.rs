@@ -20,13 +20,17 @@ impl Address {
         Self { port: 0, token: bytes.iter().map(|byte| format!("{byte:02x}")).collect() }
     }
 
-    /// An address that was printed before, whatever state of the page follows it.
-    pub(crate) fn parse(text: &str) -> Option<Self> {
-        let rest = text.strip_prefix("http://127.0.0.1:")?;
+    /// An address that was printed before or stands in a browser, and the view that it holds: the part from `#` on.
+    pub(crate) fn parse(text: &str) -> Option<(Self, String)> {
+        let rest = ["http://127.0.0.1:", "http://localhost:"].iter().find_map(|start| text.strip_prefix(start))?;
         let (port, rest) = rest.split_once('/')?;
-        let token = rest.split(['/', '#', '?']).next()?;
+        let (rest, view) = rest.split_once('#').unwrap_or((rest, ""));
+        let token = rest.split(['/', '?']).next()?;
         let sound = token.len() == TOKEN_LETTERS && token.chars().all(|letter| letter.is_ascii_hexdigit());
-        Some(Self { port: port.parse().ok()?, token: token.to_owned() }).filter(|_| sound)
+        // It is handed to the desktop's shell: nothing else than what a page writes goes there.
+        let written = |letter: char| letter.is_ascii_alphanumeric() || "-_".contains(letter);
+        let view = if !view.is_empty() && view.chars().all(written) { format!("#{view}") } else { String::new() };
+        Some((Self { port: port.parse().ok()?, token: token.to_owned() }, view)).filter(|_| sound)
     }
 
     /// What may follow the token, if the path begins with it. Takes as long for every wrong token of the right length.

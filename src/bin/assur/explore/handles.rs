@@ -2,8 +2,8 @@
 
 use assur::exchange::ModelFile;
 use assur::linkage::Pose;
-use assur::nalgebra::{Rotation2, Vector2};
-use assur::{JointKind, Manipulator};
+use assur::nalgebra::{Rotation2, UnitComplex, Vector2};
+use assur::{JointKind, Leg, Manipulator, ManipulatorMode};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -24,6 +24,8 @@ pub(crate) enum Pull {
     Platform { leg: usize, to: [f64; 2] },
     /// The direction of a last slider.
     PlatformAxis { leg: usize, to: [f64; 2] },
+    /// The direction of a middle slider, whose axis starts in `from`.
+    MiddleAxis { leg: usize, from: [f64; 2], to: [f64; 2] },
     /// The platform, by its origin.
     Pose { to: [f64; 2] },
     /// The platform, by its x axis.
@@ -74,6 +76,12 @@ impl Pull {
                 let way = in_platform(&held?, to) - platform.at;
                 platform.direction = points_somewhere(way).unwrap_or(platform.direction);
             }
+            Self::MiddleAxis { leg, from, to } => {
+                let leg = legs.get_mut(*leg).ok_or_else(|| no_leg(*leg))?;
+                if let Some(way) = points_somewhere(Vector2::from(*to) - Vector2::from(*from)) {
+                    turn_middle(leg, &held?, way);
+                }
+            }
             Self::Pose { to: [x, y] } => return Ok(Wish::Guide(Pose::new(*x, *y, held?.phi))),
             Self::Turn { to } => {
                 let pose = held?;
@@ -107,8 +115,26 @@ impl Pull {
     }
 }
 
-/// Where each handle is. `pose`: of the mode that is held; without one only the base has handles.
-pub(crate) fn handles(robot: &Manipulator, pose: Option<Pose>) -> Vec<Value> {
+/// Gives a middle slider another direction: against the first slider, or a first joint that is driven; where that turns freely, against the last slider.
+fn turn_middle(leg: &mut Leg, pose: &Pose, way: Vector2<f64>) {
+    let angle = |way: Vector2<f64>| UnitComplex::new(way.y.atan2(way.x));
+    let turned = |from: UnitComplex<f64>, to: UnitComplex<f64>| (to * from.inverse()) * Vector2::x();
+    if leg.joints[0] == JointKind::Prismatic {
+        leg.links[0].direction = turned(angle(leg.base.direction), angle(way));
+    } else {
+        let last = UnitComplex::new(pose.phi) * angle(leg.platform.direction);
+        leg.links[1].direction = turned(angle(way), last);
+    }
+}
+
+/// Whether a leg's middle joint is a slider whose direction against another slider is a number of the design.
+fn has_middle_axis(leg: &Leg) -> bool {
+    let slides = leg.joints.map(|kind| kind == JointKind::Prismatic);
+    slides[1] && (slides[0] || (slides[2] && !leg.actuated[0]))
+}
+
+/// Where each handle is. `mode`: the one that is held; without one only the base has handles.
+pub(crate) fn handles(robot: &Manipulator, mode: Option<&ManipulatorMode>) -> Vec<Value> {
     let arm = ARM * robot.characteristic_length();
     let point =
         |handle: &str, leg: usize, at: Vector2<f64>| json!({ "handle": handle, "leg": leg, "at": [at.x, at.y] });
@@ -118,15 +144,22 @@ pub(crate) fn handles(robot: &Manipulator, pose: Option<Pose>) -> Vec<Value> {
         if leg.joints[0] == JointKind::Prismatic {
             out.push(point("base_axis", number, leg.base.at + leg.base.direction.normalize() * arm));
         }
-        let Some(pose) = pose else { continue };
-        let at = pose.place(leg.platform.at);
+        let Some(ManipulatorMode { mode, joints, .. }) = mode else { continue };
+        let at = mode.pose.place(leg.platform.at);
         out.push(point("platform", number, at));
         if leg.joints[2] == JointKind::Prismatic {
-            let along = Rotation2::new(pose.phi) * leg.platform.direction.normalize();
+            let along = Rotation2::new(mode.pose.phi) * leg.platform.direction.normalize();
             out.push(point("platform_axis", number, at + along * arm));
         }
+        if has_middle_axis(leg) {
+            let [before, _] = leg.frames(&joints[number])[1];
+            let from = before.translation.vector;
+            let mut axis = point("middle_axis", number, from + before.rotation * Vector2::new(arm, 0.0));
+            axis["from"] = json!([from.x, from.y]);
+            out.push(axis);
+        }
     }
-    if let Some(pose) = pose {
+    if let Some(pose) = mode.map(|mode| mode.mode.pose) {
         // The origin is often a leg's point, so the platform is held by the middle of its points.
         let points = robot.legs.iter().map(|leg| leg.platform.at);
         let middle = pose.place(points.sum::<Vector2<f64>>() / robot.legs.len() as f64);

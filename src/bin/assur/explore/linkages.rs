@@ -43,8 +43,13 @@ pub(crate) fn four_bar(question: &FourBarQuestion) -> Result<Value, String> {
     let text = question.file.to_string();
     let CouplerFile { mut curve, .. } = CouplerFile::parse(&text, "coupler.json").map_err(|error| error.to_string())?;
     let mut place = question.place;
+    // A pull may have left fewer circuits.
+    if place.circuit >= curve.circuits().len() {
+        place.circuit = 0;
+    }
     let mut now = position(&curve, place);
-    if let (Some(pull), Some((point, turn))) = (&question.pull, now) {
+    if let Some(pull) = &question.pull {
+        let (point, turn) = now.ok_or("nothing can be pulled: with these lengths it cannot be put together")?;
         let (changed, point) = pulled(&curve, pull, point, turn)?;
         curve = changed;
         if let Some((circuit, tau)) = curve.nearest(&point, turn.cos_angle(), turn.sin_angle()) {
@@ -57,7 +62,7 @@ pub(crate) fn four_bar(question: &FourBarQuestion) -> Result<Value, String> {
     let circuits = curve.polygons(CURVE_POINTS);
     let polygons = circuits.iter().map(|points| grid.points(points.iter().map(|&point| point.into())));
     Ok(json!({
-        "file": file_of(&curve),
+        "file": with_curve(&question.file, &curve),
         "report": CouplerReport::new(&curve, None),
         "circuits": polygons.collect::<Vec<_>>(),
         "place": { "circuit": place.circuit, "tau": place.tau },
@@ -135,8 +140,8 @@ fn pulled(
     Ok((CouplerCurve::new(sides).map_err(|error| error.to_string())?, drawn))
 }
 
-/// The curve as a problem file.
-fn file_of(curve: &CouplerCurve) -> Value {
+/// A problem file with another curve; its name, and what the curve is to meet, stay.
+fn with_curve(file: &Value, curve: &CouplerCurve) -> Value {
     let mut entries = serde_json::Map::new();
     for (side, names) in curve.sides().iter().zip([["a", "p", "r", "a_line"], ["b", "q", "s", "b_line"]]) {
         match side {
@@ -152,7 +157,9 @@ fn file_of(curve: &CouplerCurve) -> Value {
             }
         }
     }
-    json!({ "schema": "assur/coupler/1", "fourbar": entries })
+    let mut file = file.clone();
+    file["fourbar"] = Value::Object(entries);
+    file
 }
 
 /// A truss, drawn in the assembly that is held; what is pulled, or which assembly is taken.
@@ -186,7 +193,10 @@ pub(crate) fn truss(question: &TrussQuestion) -> Result<Value, String> {
     // The drawing itself is an assembly: nothing is turned.
     let turned = |assembly: &&TrussAssembly| assembly.theta.iter().map(|t| (t - 1.0).norm()).fold(0.0, f64::max);
     let current = answer.real().enumerate().min_by(|p, q| turned(&p.1).total_cmp(&turned(&q.1))).map(|(k, _)| k);
-    let file: Value = serde_json::from_str(&write_group(&truss)).expect("what is written can be read");
+    let mut file: Value = serde_json::from_str(&write_group(&truss)).expect("what is written can be read");
+    if let Some(name) = question.file.get("name") {
+        file["name"] = name.clone();
+    }
     Ok(json!({
         "file": file,
         "report": GroupReport::new(&truss, &answer, true),

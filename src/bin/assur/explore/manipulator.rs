@@ -75,19 +75,20 @@ pub(crate) fn moved(question: &MoveQuestion) -> Result<Value, String> {
         }
         _ => None,
     };
-    let pose = current.map(|number| answer.modes[number].mode.pose);
+    let mode = current.map(|number| &answer.modes[number]);
+    let pose = mode.map(|mode| mode.mode.pose);
     let grid = Grid::of(robot.characteristic_length());
     Ok(json!({
         "model": model_value(&changed),
         "family": robot.family(),
-        "inputs": inputs,
+        "inputs": robot.inputs_in_range(&inputs),
         "report": ForwardReport::of_manipulator(&answer),
         "came_from": came_from(robot, &answer, tracked.as_ref()),
         "ended": tracked.map_or(Vec::new(), |tracked| tracked.ends.iter().map(|end| numbers(&end.pose)).collect()),
         "drawings": answer.modes.iter().map(|mode| marks(&mode_marks(robot, mode), grid)).collect::<Vec<_>>(),
         "current": current,
         "event": event,
-        "handles": handles(robot, pose),
+        "handles": handles(robot, mode),
         "actuators": actuators(robot),
         "size": robot.characteristic_length(),
         "workspace": question.workspace.map(|question| workspace(robot, question, pose)),
@@ -125,9 +126,8 @@ fn end(at: f64, kind: PathEventKind, pose: &Pose) -> Value {
 /// For each mode the number, from 0, of the pose it had before; numbers count each pose once, as `pose_numbers` does.
 fn came_from(robot: &Manipulator, answer: &AssemblyModes, tracked: Option<&Tracked>) -> Vec<Option<usize>> {
     let Some(tracked) = tracked else { return vec![None; answer.modes.len()] };
-    let after = Tracked { from: tracked.to.clone(), to: Vec::new(), becomes: Vec::new(), ends: Vec::new() };
     let before = |mode: &assur::ManipulatorMode| {
-        let here = after.nearest(&mode.mode.pose, robot.characteristic_length())?;
+        let here = robot.nearest_pose(&tracked.to, &mode.mode.pose)?;
         tracked.becomes.iter().position(|&becomes| becomes == Some(here))
     };
     answer.modes.iter().map(before).collect()
@@ -135,9 +135,8 @@ fn came_from(robot: &Manipulator, answer: &AssemblyModes, tracked: Option<&Track
 
 /// The mode nearest to a pose, of those in one pose the one with these signs.
 fn nearest_mode(robot: &Manipulator, answer: &AssemblyModes, pose: &Pose, signs: &str) -> Option<usize> {
-    let from = answer.modes.iter().map(|mode| mode.mode.pose).collect();
-    let list = Tracked { from, to: Vec::new(), becomes: Vec::new(), ends: Vec::new() };
-    let first = list.nearest(pose, robot.characteristic_length())?;
+    let poses: Vec<Pose> = answer.modes.iter().map(|mode| mode.mode.pose).collect();
+    let first = robot.nearest_pose(&poses, pose)?;
     let same = |&number: &usize| answer.modes[number].mode.pose == answer.modes[first].mode.pose;
     let mut alike = (0..answer.modes.len()).filter(same);
     Some(alike.find(|&number| answer.modes[number].signs == signs).unwrap_or(first))

@@ -9,7 +9,10 @@ use serde_json::{Value, json};
 
 use super::linkages::{FourBarQuestion, TrussQuestion};
 use super::manipulator::{LociQuestion, MoveQuestion, PlaneQuestion, ProveQuestion};
-use super::{Start, linkages, manipulator};
+use super::start::Start;
+use super::workspace::RegionQuestion;
+use super::{linkages, manipulator, workspace};
+use crate::tables;
 
 /// A question with the number its answer will carry.
 #[derive(Deserialize)]
@@ -41,18 +44,28 @@ enum Question {
     Prove(ProveQuestion),
     Loci(LociQuestion),
     Plane(PlaneQuestion),
+    Workspace(RegionQuestion),
     FourBar(FourBarQuestion),
     Truss(TrussQuestion),
 }
 
 impl Envelope {
-    pub(crate) fn parse(text: &str) -> Result<Self, String> {
-        serde_json::from_str(text).map_err(|error| format!("the question cannot be read: {error}"))
+    /// The question in a message; where it is none, why, and the number of what was asked if that can be read.
+    pub(crate) fn parse(text: &str) -> Result<Self, (Option<u64>, String)> {
+        #[derive(Deserialize)]
+        struct Number {
+            id: u64,
+        }
+        serde_json::from_str(text).map_err(|error| {
+            let id = serde_json::from_str(text).ok().map(|Number { id }| id);
+            (id, format!("the question cannot be read: {error}"))
+        })
     }
 
     /// Whether the answer may take longer than a frame.
     pub(crate) fn is_slow(&self) -> bool {
-        matches!(self.question, Question::Prove(_) | Question::Loci(_) | Question::Plane(_))
+        use Question::{Loci, Plane, Prove, Workspace};
+        matches!(self.question, Prove(_) | Loci(_) | Plane(_) | Workspace(_))
     }
 }
 
@@ -73,6 +86,7 @@ pub(crate) fn answer(envelope: Envelope, start: &Start) -> String {
         Question::Prove(question) => manipulator::proved(&question),
         Question::Loci(question) => manipulator::loci(&question),
         Question::Plane(question) => manipulator::plane(&question),
+        Question::Workspace(question) => workspace::region(&question),
         Question::FourBar(question) => linkages::four_bar(&question),
         Question::Truss(question) => linkages::truss(&question),
     };
@@ -115,8 +129,11 @@ pub(crate) enum Opened {
 
 impl Opened {
     pub(crate) fn manipulator(model: ModelFile, inputs: Option<Vec<f64>>) -> Self {
-        let inputs = inputs.or_else(|| model.manipulator.sample_inputs());
-        Self::Manipulator { model: model_value(&model), inputs: inputs.unwrap_or_else(|| vec![0.0; 3]) }
+        let robot = &model.manipulator;
+        // Without a mode anywhere it is shown all the same, at inputs that its limits allow.
+        let without_mode = || robot.inputs_within_limits(&vec![0.0; robot.actuated_joints().count()]);
+        let inputs = inputs.or_else(|| robot.sample_inputs()).unwrap_or_else(without_mode);
+        Self::Manipulator { model: model_value(&model), inputs }
     }
 
     pub(crate) fn family(family: &str, angle_unit: AngleUnit) -> Result<Self, String> {
@@ -126,29 +143,43 @@ impl Opened {
 
     /// The problem in a file's text, by what the file calls itself.
     pub(crate) fn read(text: &str, file: &str) -> Result<Self, String> {
-        // Another problem's reader names the command it is for; here both are at home.
-        let value = |text: &str| serde_json::from_str(text).map_err(|error| format!("{file}: {error}"));
-        if CouplerFile::parse(text, file).is_ok() {
-            return Ok(Self::FourBar { file: value(text)? });
+        let tree = plain(text);
+        let schema = tree.as_ref().and_then(|tree| tree["schema"].as_str());
+        match (schema, &tree) {
+            (Some("assur/coupler/1"), Some(tree)) => {
+                CouplerFile::parse(text, file).map_err(|error| error.to_string())?;
+                Ok(Self::FourBar { file: tree.clone() })
+            }
+            (Some("assur/group/1"), Some(tree)) => {
+                parse_group(text, file).map_err(|error| error.to_string())?;
+                Ok(Self::Truss { file: tree.clone() })
+            }
+            _ => {
+                let model = ModelFile::parse(text, file).map_err(|error| error.to_string())?;
+                Ok(Self::manipulator(model, None))
+            }
         }
-        if parse_group(text, file).is_ok() {
-            return Ok(Self::Truss { file: value(text)? });
-        }
-        let model = ModelFile::parse(text, file).map_err(|error| error.to_string())?;
-        Ok(Self::manipulator(model, None))
     }
 
-    /// With these inputs, in radians and lengths, if there are any.
-    pub(crate) fn with_inputs(mut self, given: &[f64]) -> Self {
-        if let Self::Manipulator { inputs, .. } = &mut self
-            && !given.is_empty()
-        {
-            *inputs = given.to_vec();
-        }
-        self
+    /// Begun at these inputs, angles in the model's unit, if there are any. Refused where no group is left to assemble.
+    pub(crate) fn begun_at(self, given: &[f64]) -> Result<Self, String> {
+        let Self::Manipulator { model, inputs } = self else {
+            let refused = "it has no actuators, so --inputs does not go with it";
+            return if given.is_empty() { Ok(self) } else { Err(refused.to_owned()) };
+        };
+        let ModelFile { manipulator: robot, angle_unit } = read_model(&model)?;
+        let inputs = if given.is_empty() { inputs } else { tables::inputs_in_radians(&robot, given, angle_unit) };
+        robot.lock(&inputs).map_err(|error| angle_unit.of_lock_error(&robot, error).to_string())?;
+        Ok(Self::Manipulator { model, inputs })
     }
 
     pub(crate) fn to_json(&self) -> Value {
         serde_json::to_value(self).expect("plain data with text keys")
     }
+}
+
+/// A file's text, TOML or JSON, as plain data.
+fn plain(text: &str) -> Option<Value> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    serde_json::from_str(text).ok().or_else(|| toml::from_str(text).ok())
 }

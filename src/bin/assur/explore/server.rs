@@ -13,7 +13,8 @@ use axum::serve::ListenerExt;
 use tokio::net::TcpListener;
 
 use super::address::Address;
-use super::{Start, assets, socket};
+use super::start::Start;
+use super::{assets, socket};
 
 /// The longest path asked for, in bytes: the page's own are a tenth of it.
 const LONGEST_PATH: usize = 512;
@@ -101,13 +102,13 @@ async fn admitted(served: &Served, request: Request) -> Result<Response, Refused
     let upgrade = WebSocketUpgrade::from_request_parts(&mut parts, &())
         .await
         .map_err(|_| (StatusCode::UPGRADE_REQUIRED, "This is for a WebSocket."))?;
-    let place = Place::take(&served.sockets)
-        .ok_or((StatusCode::SERVICE_UNAVAILABLE, "Too many pages are open; close some."))?;
+    let place = Place::take(&served.sockets);
     let start = Arc::clone(&served.start);
     let upgrade = upgrade.max_message_size(LARGEST_MESSAGE).max_frame_size(LARGEST_MESSAGE);
-    Ok(upgrade.on_upgrade(async move |socket| {
-        socket::converse(socket, start).await;
-        drop(place);
+    Ok(upgrade.on_upgrade(async move |socket| match place {
+        Some(_place) => socket::converse(socket, start).await,
+        // A page learns why from a close code only.
+        None => socket::turn_away(socket).await,
     }))
 }
 

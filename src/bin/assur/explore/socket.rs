@@ -11,8 +11,8 @@ use axum::extract::ws::{CloseFrame, Message, WebSocket};
 use tokio::sync::mpsc::{self, UnboundedSender};
 use tokio::time::{interval, timeout};
 
-use super::Start;
 use super::question::{Envelope, answer, refuse};
+use super::start::Start;
 
 /// A ping this often shows whether the page is still there; browsers answer them by themselves.
 const PING_EVERY: Duration = Duration::from_secs(20);
@@ -22,9 +22,10 @@ const SILENCE: Duration = Duration::from_secs(65);
 const SENDING: Duration = Duration::from_secs(10);
 /// Questions that may wait. The page asks one at a time of each kind.
 const MOST_WAITING: usize = 16;
-/// Close codes of RFC 6455: a message that is too large, and one of the wrong kind.
+/// Close codes of RFC 6455 and its registry: a message that is too large, one of the wrong kind, and to be tried again later.
 const TOO_LARGE: u16 = 1009;
 const UNSUPPORTED: u16 = 1003;
+const TRY_AGAIN: u16 = 1013;
 
 /// The two lanes of questions.
 #[derive(Default)]
@@ -54,7 +55,7 @@ pub(crate) async fn converse(mut socket: WebSocket, start: Arc<Start>) {
                                 Some(Message::text(refuse(Some(envelope.id), "too many questions at once")))
                             }
                         }
-                        Err(reason) => Some(Message::text(refuse(None, &reason))),
+                        Err((id, reason)) => Some(Message::text(refuse(id, &reason))),
                     },
                     Some(Ok(Message::Binary(_))) => Some(closing(UNSUPPORTED, "messages are text")),
                     Some(Ok(Message::Ping(_) | Message::Pong(_))) => None,
@@ -82,6 +83,11 @@ pub(crate) async fn converse(mut socket: WebSocket, start: Arc<Start>) {
             return;
         }
     }
+}
+
+/// Ends a conversation for which there is no place.
+pub(crate) async fn turn_away(mut socket: WebSocket) {
+    let _ = timeout(SENDING, socket.send(closing(TRY_AGAIN, "too many pages are open; close some"))).await;
 }
 
 fn closing(code: u16, reason: &'static str) -> Message {

@@ -1,5 +1,7 @@
 //! Workspaces as the page draws them: boundaries as polygons, with their measures.
 
+use std::time::Instant;
+
 use assur::Manipulator;
 use assur::linkage::Pose;
 use assur::plane::PhiRange;
@@ -8,6 +10,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::drawing::Grid;
+use super::question::read_model;
 
 /// Steps in a full circle: it looks round on any screen.
 const CIRCLE_STEPS: f64 = 180.0;
@@ -35,8 +38,23 @@ pub(crate) enum WorkspaceQuestion {
     Dextrous,
 }
 
-/// The workspace, or why there is none; `pose`: of the mode that is held.
+/// A workspace beside a drag: one that takes too long for its steps.
+#[derive(Deserialize)]
+pub(crate) struct RegionQuestion {
+    model: Value,
+    /// Of the mode that is held.
+    pose: Option<[f64; 3]>,
+    workspace: WorkspaceQuestion,
+}
+
+pub(crate) fn region(question: &RegionQuestion) -> Result<Value, String> {
+    let pose = question.pose.map(|[x, y, phi]| Pose::new(x, y, phi));
+    Ok(workspace(&read_model(&question.model)?.manipulator, question.workspace, pose))
+}
+
+/// The workspace and how long it took, or why there is none; `pose`: of the mode that is held.
 pub(crate) fn workspace(robot: &Manipulator, question: WorkspaceQuestion, pose: Option<Pose>) -> Value {
+    let began = Instant::now();
     let kind = match (question, pose) {
         (WorkspaceQuestion::Constant, Some(pose)) => WorkspaceKind::Constant { phi: pose.phi },
         (WorkspaceQuestion::Constant, None) => {
@@ -64,6 +82,10 @@ pub(crate) fn workspace(robot: &Manipulator, question: WorkspaceQuestion, pose: 
         Isolated::Curve(arc) => Some(curve_points(arc)),
         Isolated::Point { .. } => None,
     };
+    let point = |isolated: &Isolated| match isolated {
+        Isolated::Point { at, .. } => Some(grid.point(*at)),
+        Isolated::Curve(_) => None,
+    };
     let separating = found.separating.iter().map(curve_points);
     json!({
         "kind": kind.name(),
@@ -73,6 +95,9 @@ pub(crate) fn workspace(robot: &Manipulator, question: WorkspaceQuestion, pose: 
         "holes": region.holes,
         "loops": region.loops.iter().map(|one| outline(&one.arcs)).collect::<Vec<_>>(),
         "separating": separating.chain(region.isolated.iter().filter_map(curve)).collect::<Vec<_>>(),
+        "isolated": region.isolated.iter().filter_map(point).collect::<Vec<_>>(),
+        "unclosed": region.unclosed.len(),
+        "micros": u64::try_from(began.elapsed().as_micros()).unwrap_or(u64::MAX),
     })
 }
 
