@@ -222,10 +222,12 @@ impl LegReach {
 
     /// The leg's slack at a pose as the lesser of two: what grows as the platform turns on, and what falls. Between events each keeps doing so.
     fn sides(&self, at: Vector2<f64>, turn: Vector2<f64>, fixed: &[Edge], size: f64) -> [Slack; 2] {
-        let side = |slack: Slack| if slack.slope >= 0.0 { [slack, Slack::NONE] } else { [Slack::NONE, slack] };
         if self.ring.is_some() {
-            return self.ring_slacks(at, turn).map(side).into_iter().fold([Slack::NONE; 2], lesser_of_each);
+            let [beyond, within] = self.ring_slacks(at, turn);
+            // One grows as fast as the other falls.
+            return if beyond.slope >= 0.0 { [beyond, within] } else { [within, beyond] };
         }
+        let side = |slack: Slack| if slack.slope >= 0.0 { [slack, Slack::NONE] } else { [Slack::NONE, slack] };
         if self.platform_sector.is_some() || !self.allows_pose(at, turn, 0.0) {
             return side(self.slack(at, turn, fixed, size));
         }
@@ -245,12 +247,14 @@ impl LegReach {
         let leg = at + arm - self.a;
         let d = leg.norm();
         let parting = leg.dot(&Vector2::new(-arm.y, arm.x)) / d;
-        let of = |value: f64, slope: f64, radius: f64| {
+        let limit = |radius: f64| {
             let is = |limit: &&Limit| matches!(limit.dyad, Dyad::RR { length, .. } if length == radius);
-            let limit = if value.is_infinite() { None } else { self.limits.iter().find(is) };
-            Slack { value, slope, binding: limit.map(Limit::active) }
+            self.limits.iter().find(is).map(Limit::active)
         };
-        [of(if low > 0.0 { d - low } else { f64::INFINITY }, parting, low), of(high - d, -parting, high)]
+        let beyond = Slack { value: d - low, slope: parting, binding: limit(low) };
+        let within =
+            Slack { value: high - d, slope: -parting, binding: if high < f64::INFINITY { limit(high) } else { None } };
+        [if low > 0.0 { beyond } else { Slack { slope: parting, ..Slack::NONE } }, within]
     }
 
     /// Orientations between which the leg's slack has one peak.
@@ -407,8 +411,13 @@ impl Reach {
     }
 }
 
-fn lesser_of_each(one: [Slack; 2], other: [Slack; 2]) -> [Slack; 2] {
-    [0, 1].map(|k| if other[k].value < one[k].value { other[k] } else { one[k] })
+fn lesser_of_each(mut one: [Slack; 2], other: [Slack; 2]) -> [Slack; 2] {
+    for (one, other) in one.iter_mut().zip(other) {
+        if other.value < one.value {
+            *one = other;
+        }
+    }
+    one
 }
 
 /// So much of a stretch inside its ends it is asked where a slack goes: at the ends themselves its slope may be that beyond.
