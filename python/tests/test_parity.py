@@ -242,7 +242,8 @@ def test_multipterons(cli: Cli, name: str) -> None:
     place = [1.0, 2.0, 3.0]
     found = robot.inverse(place)
     assert found.to_json() == cli("multipteron", "inverse", file, f"--pose={joined(place)}", "--json")
-    assert "</svg>" in found.svg() and found.svg() in found._repr_html_()
+    picture = found.svg()
+    assert picture is not None and "</svg>" in picture and picture in found._repr_html_()
     back = [mode.pose.position for mode in robot.forward(found.inputs)]
     assert any(np.allclose(position, place) for position in back)
 
