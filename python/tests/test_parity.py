@@ -243,7 +243,7 @@ def test_multipterons(cli: Cli, name: str) -> None:
     found = robot.inverse(place)
     assert found.to_json() == cli("multipteron", "inverse", file, f"--pose={joined(place)}", "--json")
     picture = found.svg()
-    assert picture is not None and "</svg>" in picture and picture in found._repr_html_()
+    assert picture is not None and "</svg>" in picture and "<img" in found._repr_html_()
     back = [mode.pose.position for mode in robot.forward(found.inputs)]
     assert any(np.allclose(position, place) for position in back)
 
