@@ -70,6 +70,8 @@ async function open(address) {
   return page;
 }
 const settled = (page) => page.evaluate(async () => {
+  // A way to another page, or a step of undo, puts a new page in the old one's place.
+  await globalThis.assur.ways.settled();
   await globalThis.assur.page.moves.settled();
   if (globalThis.assur.page.slow) await globalThis.assur.page.slow.settled();
   // Drawn with the frame after the answer.
