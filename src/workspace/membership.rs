@@ -79,7 +79,7 @@ impl Edge {
         Some(Self { shape, ends, active: *arc.active.first()? })
     }
 
-    /// How far a place is from this piece, and the unit vector in which it becomes farther; not finite on the piece itself.
+    /// How far a place is from this piece, and the unit vector in which it becomes farther; not finite on an end that is nearest.
     fn distance(&self, p: Vector2<f64>) -> (f64, Vector2<f64>) {
         let from_ends = || {
             let [one, other] = self.ends.map(|end| p - end);
@@ -190,34 +190,7 @@ impl LegReach {
 
     /// The leg's slack at a pose.
     fn slack(&self, at: Vector2<f64>, turn: Vector2<f64>, fixed: &[Edge], size: f64) -> Slack {
-        let arm = product(turn, self.b);
-        let moves = Vector2::new(-arm.y, arm.x);
-        if self.ring.is_some() {
-            let [beyond, within] = self.ring_slacks(at, turn);
-            return if beyond.value < within.value { beyond } else { within };
-        }
-        let moved;
-        let (edges, place) = if self.platform_sector.is_some() {
-            moved = self.edges(turn, size);
-            (&moved[..], at)
-        } else {
-            (fixed, at + arm - self.b)
-        };
-        let nearest =
-            edges.iter().map(|edge| (edge.distance(place), edge.active)).min_by(|a, b| a.0.0.total_cmp(&b.0.0));
-        let sign = if self.allows_pose(at, turn, 0.0) { 1.0 } else { -1.0 };
-        match nearest {
-            Some(((distance, away), active)) => {
-                let slope = if self.platform_sector.is_some() { f64::NAN } else { sign * away.dot(&moves) };
-                Slack { value: sign * distance, slope, binding: Some(active) }
-            }
-            // Everything is allowed, or nothing anywhere.
-            None => Slack {
-                value: sign * f64::INFINITY,
-                binding: self.limits.first().map(Limit::active).filter(|_| sign < 0.0),
-                ..Slack::NONE
-            },
-        }
+        lesser(self.sides(at, turn, fixed, size))
     }
 
     /// The leg's slack at a pose as the lesser of two: what grows as the platform turns on, and what falls. Between events each keeps doing so.
@@ -227,17 +200,28 @@ impl LegReach {
             // One grows as fast as the other falls.
             return if beyond.slope >= 0.0 { [beyond, within] } else { [within, beyond] };
         }
-        let side = |slack: Slack| if slack.slope >= 0.0 { [slack, Slack::NONE] } else { [Slack::NONE, slack] };
-        if self.platform_sector.is_some() || !self.allows_pose(at, turn, 0.0) {
-            return side(self.slack(at, turn, fixed, size));
-        }
         let arm = product(turn, self.b);
-        let (place, moves) = (at + arm - self.b, Vector2::new(-arm.y, arm.x));
-        let pieces = fixed.iter().map(|edge| {
+        let moved;
+        let (edges, place, moves) = if self.platform_sector.is_some() {
+            moved = self.edges(turn, size);
+            (&moved[..], at, Vector2::repeat(f64::NAN))
+        } else {
+            (fixed, at + arm - self.b, Vector2::new(-arm.y, arm.x))
+        };
+        let side = |slack: Slack| if slack.slope >= 0.0 { [slack, Slack::NONE] } else { [Slack::NONE, slack] };
+        let mut pieces = edges.iter().map(|edge| {
             let (value, away) = edge.distance(place);
-            side(Slack { value, slope: away.dot(&moves), binding: Some(edge.active) })
+            Slack { value, slope: away.dot(&moves), binding: Some(edge.active) }
         });
-        pieces.fold([Slack::NONE; 2], lesser_of_each)
+        if self.allows_pose(at, turn, 0.0) {
+            // Without an edge everything is allowed.
+            return pieces.fold([Slack::NONE; 2], |sides, piece| lesser_of_each(sides, side(piece)));
+        }
+        // Outside it is as far to the nearest piece; without one nothing is allowed anywhere.
+        let nothing = Slack { binding: self.limits.first().map(Limit::active), ..Slack::NONE };
+        let first = pieces.next().unwrap_or(nothing);
+        let nearest = pieces.fold(first, |one, other| if other.value < one.value { other } else { one });
+        side(Slack { value: -nearest.value, slope: -nearest.slope, ..nearest })
     }
 
     /// How far the pivots of a ring are beyond its inner radius, and within its outer one.
@@ -411,6 +395,10 @@ impl Reach {
     }
 }
 
+fn lesser([grows, falls]: [Slack; 2]) -> Slack {
+    if falls.value < grows.value { falls } else { grows }
+}
+
 fn lesser_of_each(mut one: [Slack; 2], other: [Slack; 2]) -> [Slack; 2] {
     for (one, other) in one.iter_mut().zip(other) {
         if other.value < one.value {
@@ -420,7 +408,8 @@ fn lesser_of_each(mut one: [Slack; 2], other: [Slack; 2]) -> [Slack; 2] {
     one
 }
 
-/// So much of a stretch inside its ends it is asked where a slack goes: at the ends themselves its slope may be that beyond.
+/// This share of a stretch inside its ends it is asked where a slack goes: at the ends themselves its slope may be that beyond (heuristic: well above the roundings of an angle, and
+/// what a slack gains in it is a rounding).
 const JUST_INSIDE: f64 = 1e-12;
 
 /// The peak between two events of the lesser of a slack that grows and one that falls: where they cross, by Newton's method within bounds, or at an end.
@@ -431,7 +420,6 @@ fn crossing_peak(sides: &dyn Fn(f64) -> [Slack; 2], [from, to]: [f64; 2], ends: 
     let least = JUST_INSIDE * (to - from);
     let [mut a, mut b] = [from + least, to - least];
     let gap = |[grows, falls]: &[Slack; 2]| falls.value - grows.value;
-    let lesser = |[grows, falls]: [Slack; 2]| if falls.value < grows.value { falls } else { grows };
     let higher = |one: Slack, other: Slack| if other.value > one.value { other } else { one };
     let mut best = higher(ends[0], ends[1]);
     let [left, right] = [sides(a), sides(b)];

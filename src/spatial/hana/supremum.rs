@@ -28,7 +28,7 @@ const ROUNDING: f64 = 32.0 * f64::EPSILON;
 const HALVINGS: u32 = 41;
 
 impl Hana {
-    /// The largest capability over the workspace of `phi = 0`, and a bound that none exceeds; `None` where that is empty.
+    /// The largest capability over the workspace of `phi = 0`, and a bound that none exceeds; `None` where that is empty, or so narrow that rounding leaves no place in it.
     ///
     /// Along `z` the largest is among four places in closed form, since what the near ends of the strokes allow grows with `z` and what the far ends allow falls, with
     /// one jump at `hi - sqrt((l + r)² - R²)`, `l = sqrt(L² - y²)`. Along `y` ranges are bounded and halved until no range can hold more than `1e-9` above what is had.
